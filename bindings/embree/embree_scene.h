@@ -1,0 +1,47 @@
+// The scene in Embree: closest hits in packets, occlusion, and all hits along a line.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bindings/scene/scene.h"
+#include "clv/data/hit.h"
+#include "clv/data/ray.h"
+
+namespace clv {
+
+// A crossing of a line with a surface.
+struct LineHit {
+    float distance;  // m along the line
+    bool front;      // the line meets the front face (counter-clockwise) there
+    glm::vec3 normal;  // unit length, geometric (right-hand rule)
+};
+
+// Built once, then const: every const member may be called from several threads at once.
+class EmbreeScene {
+public:
+    explicit EmbreeScene(const Scene& scene);  // keeps a reference to `scene`
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    const Scene& scene() const;
+    // Distance by which rays that leave a surface start above it, m: a small multiple of the rounding of the coordinates.
+    float surfaceOffset() const;
+
+    // The trace stage: cuts each ray at its first hit (maxDistance becomes the hit distance; unchanged where nothing is hit within it).
+    void trace(std::span<ClvRay> rays) const;
+    // The same, and says what was hit. hits.size() == rays.size().
+    void trace(std::span<ClvRay> rays, std::span<ClvHit> hits) const;
+    // Closest hit of one ray within [0, maxDistance].
+    ClvHit hit(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const;
+    bool occluded(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const;
+    // Every crossing along origin + t direction, t in (0, maxDistance), sorted by distance; `hits` is cleared first.
+    void lineHits(const glm::vec3& origin, const glm::vec3& direction, float maxDistance, std::vector<LineHit>& hits) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clv
