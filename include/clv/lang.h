@@ -36,9 +36,11 @@ using glm::cross;
 using glm::dot;
 using glm::floor;
 using glm::fract;
+using glm::length;
 using glm::max;
 using glm::min;
 using glm::mix;
+using glm::normalize;
 using std::acos;
 using std::cos;
 using std::exp;
@@ -46,6 +48,8 @@ using std::pow;
 using std::sin;
 using std::sqrt;
 
+// Angle of the point (x, y), rad, (-pi, pi].
+inline float clvAtan2(float y, float x) { return std::atan2(y, x); }
 inline uint clvBitsFromFloat(float x) { return std::bit_cast<uint>(x); }
 inline float clvFloatFromBits(uint x) { return std::bit_cast<float>(x); }
 inline uint clvReverseBits(uint x) {
@@ -79,6 +83,7 @@ inline uint clvReverseBits(uint x) {
 #define mix lerp
 #define fract frac
 
+float clvAtan2(float y, float x) { return atan2(y, x); }
 uint clvBitsFromFloat(float x) { return asuint(x); }
 float clvFloatFromBits(uint x) { return asfloat(x); }
 uint clvReverseBits(uint x) { return reversebits(x); }
@@ -92,6 +97,7 @@ uint clvReverseBits(uint x) { return reversebits(x); }
 #define CLV_INOUT(type) inout type
 #define CLV_OUT(type) out type
 
+float clvAtan2(float y, float x) { return atan(y, x); }
 uint clvBitsFromFloat(float x) { return floatBitsToUint(x); }
 float clvFloatFromBits(uint x) { return uintBitsToFloat(x); }
 uint clvReverseBits(uint x) { return bitfieldReverse(x); }
