@@ -1,0 +1,55 @@
+// A level on the host: the grid, its cell table, splits and slots; and where the deposits of a slot lie in memory.
+#ifndef CLV_CPU_LEVEL_H
+#define CLV_CPU_LEVEL_H
+#include <cstddef>
+#include <vector>
+
+#include "../data/cell.h"
+#include "../data/light_volume.h"
+
+namespace clv {
+
+struct Level {
+    ClvVolume volume;
+    std::vector<uint> table;       // a cell each: slot, split or kClvNoSlot
+    std::vector<ClvSplit> splits;
+    std::vector<ClvSlot> slots;
+
+    std::size_t cellCount() const { return table.size(); }
+    // Bytes of the tables; deposits come on top (DepositLayout::bytes).
+    std::size_t bytes() const {
+        return table.size() * sizeof(uint) + splits.size() * sizeof(ClvSplit) + slots.size() * sizeof(ClvSlot);
+    }
+};
+
+// One record a slot: coefficient k of channel c at index k * channels + c, padded to whole vectors of 8 floats.
+struct DepositLayout {
+    uint storage = kClvStorageCube9;
+    int channels = 3;  // 3, or 1 in a scene without colour
+
+    int values() const { return int(clvCoefficientCount(storage)) * channels; }
+    int stride() const { return (values() + 7) / 8 * 8; }  // floats
+    std::size_t bytes(std::size_t slots) const { return slots * std::size_t(stride()) * sizeof(float); }
+};
+
+// Number of cells along x, y and z, and their place, so that cubes of side cbrt(volume of the bounds) / n cover the bounds.
+// `shift`, [0, 1) a component, moves the grid by a fraction of a cell.
+inline ClvVolume volumeOverBounds(const vec3& lo, const vec3& hi, int n, uint storage, const vec3& shift = vec3(0.0f)) {
+    vec3 extent = hi - lo;
+    float longest = std::max(std::max(extent.x, extent.y), extent.z);
+    // A flat scene still fills a layer of cells.
+    extent = glm::max(extent, vec3(std::max(longest * 1e-2f, 1e-30f)));
+    ClvVolume volume{};
+    volume.cellSize = float(std::cbrt(double(extent.x) * extent.y * extent.z) / n);
+    volume.storage = storage;
+    // A thousandth of a cell of air around the bounds keeps surfaces on the rim inside.
+    const float rim = 1e-3f;
+    for (int axis = 0; axis < 3; ++axis) {
+        volume.origin[axis] = lo[axis] - volume.cellSize * (rim + shift[axis]);
+        volume.resolution[axis] = int(std::ceil(extent[axis] / volume.cellSize + 2 * rim + shift[axis]));
+    }
+    return volume;
+}
+
+}  // namespace clv
+#endif
