@@ -14,6 +14,7 @@
 #define CLV_NAMESPACE_END }
 #define CLV_FN inline
 #define CLV_CONST inline constexpr
+#define CLV_IN(type) const type&  // for large structs
 #define CLV_INOUT(type) type&
 #define CLV_OUT(type) type&
 
@@ -68,6 +69,7 @@ inline uint clvReverseBits(uint x) {
 #define CLV_NAMESPACE_END
 #define CLV_FN
 #define CLV_CONST static const
+#define CLV_IN(type) type
 #define CLV_INOUT(type) inout type
 #define CLV_OUT(type) out type
 
@@ -94,6 +96,7 @@ uint clvReverseBits(uint x) { return reversebits(x); }
 #define CLV_NAMESPACE_END
 #define CLV_FN
 #define CLV_CONST const
+#define CLV_IN(type) type
 #define CLV_INOUT(type) inout type
 #define CLV_OUT(type) out type
 
