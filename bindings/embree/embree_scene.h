@@ -5,17 +5,11 @@
 #include <vector>
 
 #include "bindings/scene/scene.h"
+#include "clv/cpu/scene_probe.h"
 #include "clv/data/hit.h"
 #include "clv/data/ray.h"
 
 namespace clv {
-
-// A crossing of a line with a surface.
-struct LineHit {
-    float distance;  // m along the line
-    bool front;      // the line meets the front face (counter-clockwise) there
-    glm::vec3 normal;  // unit length, geometric (right-hand rule)
-};
 
 // Built once, then const: every const member may be called from several threads at once.
 class EmbreeScene {
@@ -38,6 +32,9 @@ public:
     bool occluded(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const;
     // Every crossing along origin + t direction, t in (0, maxDistance), sorted by distance; `hits` is cleared first.
     void lineHits(const glm::vec3& origin, const glm::vec3& direction, float maxDistance, std::vector<LineHit>& hits) const;
+
+    // What buildLevel asks, answered by this scene; valid as long as the scene is.
+    SceneProbe probe() const;
 
 private:
     struct Impl;

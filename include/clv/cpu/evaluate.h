@@ -1,0 +1,155 @@
+// Evaluate on the CPU: which slots a receiver reads, with what weights, and what comes out.
+#ifndef CLV_CPU_EVALUATE_H
+#define CLV_CPU_EVALUATE_H
+#include <array>
+#include <span>
+
+#include "../stages/evaluate.h"
+#include "level.h"
+
+namespace clv {
+
+struct LookupOptions {
+    uint lookup = kClvLookupLinearFit;
+    bool planeCulling = true;
+    bool visibility = true;   // leave out slots that the receiver's own slot does not see
+    float ridge = kClvFitRidge;
+};
+
+// The slots that a receiver reads. E = sum of weight[i] * (record of slot[i], read for the normal).
+struct SlotWeights {
+    static constexpr int kCapacity = 54;  // 27 cells, two slots each
+    int count = 0;
+    std::array<uint, kCapacity> slot;
+    std::array<float, kCapacity> weight;  // 1/m^3
+};
+
+namespace detail {
+
+// The slot of a cell that holds `position`, or kClvNoSlot.
+inline uint slotAt(const Level& level, const ivec3& cell, const vec3& position) {
+    if (!clvCellInside(level.volume, cell)) return kClvNoSlot;
+    const uint entry = level.table[clvCellIndex(level.volume, cell)];
+    if (entry == kClvNoSlot || !(entry & kClvSplitBit)) return entry;
+    return clvSlotFromSplit(level.splits[entry & ~kClvSplitBit], position);
+}
+
+inline bool sees(const ClvSlot& slot, const ivec3& step, bool back) {
+    return ((back ? slot.visibleBack : slot.visibleFront) & clvNeighbourBit(step)) != 0u;
+}
+
+}  // namespace detail
+
+// Where a receiver reads from: the cell around which interpolation runs, its slot, and the point on which it is centred.
+struct Hub {
+    ivec3 cell;
+    uint slot;     // kClvNoSlot: the cell has none
+    vec3 center;   // m
+};
+
+// Half a cell in front of the surface, unless a wall stands between: then the surface's own cell.
+inline Hub findHub(const Level& level, const ClvReceiver& receiver, const LookupOptions& options) {
+    const ClvVolume& v = level.volume;
+    const float h = v.cellSize;
+    const vec3 ahead = receiver.position + receiver.normal * (kClvLookupOffset * h);
+    const ivec3 aheadCell = clvClampCell(v, clvCellFromPosition(v, ahead));
+    const uint aheadSlot = detail::slotAt(level, aheadCell, ahead);
+    const ivec3 ownCell = clvClampCell(v, clvCellFromPosition(v, receiver.position + receiver.normal * (kClvHomeOffset * h)));
+    if (ownCell == aheadCell || !options.visibility) return {aheadCell, aheadSlot, ahead};
+    const vec3 side = receiver.position + receiver.normal * (kClvSideOffset * h);
+    const uint ownSlot = detail::slotAt(level, ownCell, side);
+    if (ownSlot == kClvNoSlot) return {aheadCell, aheadSlot, ahead};
+    if (aheadSlot != kClvNoSlot) {
+        const uint entry = level.table[clvCellIndex(v, aheadCell)];
+        const bool back = (entry & kClvSplitBit) && level.splits[entry & ~kClvSplitBit].backSlot == aheadSlot;
+        if (detail::sees(level.slots[ownSlot], aheadCell - ownCell, back)) return {aheadCell, aheadSlot, ahead};
+    }
+    return {ownCell, ownSlot, receiver.position + receiver.normal * (kClvHomeOffset * h)};
+}
+
+// Depends on geometry alone, so that a still receiver may keep its weights. `allowed`, if given, has a flag a slot: others are left out.
+inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const LookupOptions& options, SlotWeights& out) {
+    const ClvVolume& v = level.volume;
+    const float inverseCell = 1.0f / v.cellSize;
+    out.count = 0;
+    const Hub hub = findHub(level, receiver, options);
+    if (options.lookup == kClvLookupNearest) {
+        if (hub.slot == kClvNoSlot) return;
+        out.slot[0] = hub.slot, out.weight[0] = 1.0f / level.slots[hub.slot].openVolume, out.count = 1;
+        return;
+    }
+    const bool fitting = options.lookup == kClvLookupLinearFit;
+    // The 8 cells of trilinear interpolation: from the cell whose centre is below the point to the next.
+    const vec3 fromCenter = (hub.center - clvCellCenter(v, hub.cell)) * inverseCell;
+    ivec3 lo(-1), hi(1);
+    if (!fitting) {
+        for (int axis = 0; axis < 3; ++axis) (fromCenter[axis] < 0.0f ? hi : lo)[axis] = 0;
+    }
+    std::array<vec3, SlotWeights::kCapacity> x;
+    ClvFit fit = clvFitBegin();
+    auto add = [&](uint slot, float weight) {
+        const ClvSlot& s = level.slots[slot];
+        if (options.planeCulling && clvInFront(receiver, s.centroid) == 0) return;
+        const int i = out.count++;
+        out.slot[i] = slot;
+        out.weight[i] = weight;
+        x[i] = (s.centroid - receiver.position) * inverseCell;
+        clvFitAdd(fit, weight * s.openVolume, x[i]);
+    };
+    for (int dz = lo.z; dz <= hi.z; ++dz) {
+        for (int dy = lo.y; dy <= hi.y; ++dy) {
+            for (int dx = lo.x; dx <= hi.x; ++dx) {
+                const ivec3 step(dx, dy, dz);
+                const ivec3 cell = hub.cell + step;
+                if (!clvCellInside(v, cell)) continue;
+                const uint entry = level.table[clvCellIndex(v, cell)];
+                if (entry == kClvNoSlot) continue;
+                const float weight = clvLookupWeight(options.lookup, vec3(step) - fromCenter);
+                if (!(weight > 0.0f)) continue;
+                auto inSight = [&](bool back) {
+                    return !options.visibility || hub.slot == kClvNoSlot || detail::sees(level.slots[hub.slot], step, back);
+                };
+                if (entry & kClvSplitBit) {
+                    const ClvSplit& split = level.splits[entry & ~kClvSplitBit];
+                    const bool isHub = step == ivec3(0) && options.visibility;
+                    if (isHub ? hub.slot == split.frontSlot : inSight(false)) add(split.frontSlot, weight);
+                    if (isHub ? hub.slot == split.backSlot : inSight(true)) add(split.backSlot, weight);
+                } else if (inSight(false)) {
+                    add(entry, weight);
+                }
+            }
+        }
+    }
+    if (!(fit.weight > 0.0f)) {
+        // Everything was culled: the hub alone, whichever side its centroid lies on.
+        out.count = 0;
+        if (hub.slot == kClvNoSlot) return;
+        out.slot[0] = hub.slot, out.weight[0] = 1.0f / level.slots[hub.slot].openVolume, out.count = 1;
+        return;
+    }
+    const vec3 slope = clvFitSolve(fit, options.ridge);
+    for (int i = 0; i < out.count; ++i) {
+        out.weight[i] = fitting ? clvFitShare(fit, slope, out.weight[i], x[i]) : out.weight[i] / fit.weight;
+    }
+}
+
+// Irradiance, W/m^2, from records of layout.stride() floats a slot. A scene without colour gives three equal channels.
+inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, const SlotWeights& weights,
+                           const ClvCoefficients& read) {
+    alignas(64) float sum[32] = {};
+    const int stride = layout.stride();
+    for (int i = 0; i < weights.count; ++i) {
+        const float* record = deposits.data() + std::size_t(weights.slot[i]) * stride;
+        const float w = weights.weight[i];
+        for (int j = 0; j < stride; ++j) sum[j] += record[j] * w;
+    }
+    const float r[9] = {read.a.x, read.a.y, read.a.z, read.a.w, read.b.x, read.b.y, read.b.z, read.b.w, read.c};
+    vec3 irradiance(0.0f);
+    for (int k = 0; k < int(clvCoefficientCount(layout.storage)); ++k) {
+        for (int c = 0; c < 3; ++c) irradiance[c] += r[k] * sum[layout.channels == 1 ? k : 3 * k + c];
+    }
+    return max(irradiance, vec3(0.0f));
+}
+
+}  // namespace clv
+#endif

@@ -1,0 +1,111 @@
+// Inject on the CPU: rays into the deposits of one level, packet by packet.
+#ifndef CLV_CPU_INJECT_H
+#define CLV_CPU_INJECT_H
+#include <cstring>
+#include <span>
+
+#include "packet_walk.h"
+
+namespace clv {
+
+// Where crossings end up. `deposits` holds layout.stride() floats a slot, aligned to 64 bytes; `dynamicity` holds 6 floats a slot
+// (the sides +x -x +y -y +z -z), or is empty where no light moves.
+struct DepositTarget {
+    std::span<float> deposits;
+    std::span<float> dynamicity;
+};
+
+namespace detail {
+
+// What each of up to 16 rays adds per metre: flux * f_k, in the order of the record.
+struct PacketDeposits {
+    alignas(64) float value[kPacketLanes][32];
+    alignas(64) float dynamicity[kPacketLanes][8];  // a side each: the ray's, on the sides that it lights
+};
+
+inline bool finiteRay(const ClvRay& ray) {
+    const float sum = ray.flux.x + ray.flux.y + ray.flux.z + ray.direction.x + ray.direction.y + ray.direction.z;
+    return std::abs(sum) <= 3e38f;
+}
+
+inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> rays, bool withDynamicity, PacketDeposits& out) {
+    const int count = int(clvCoefficientCount(layout.storage));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const ClvRay& ray = rays[i];
+        float* value = out.value[i];
+        std::memset(value, 0, sizeof out.value[i]);
+        std::memset(out.dynamicity[i], 0, sizeof out.dynamicity[i]);
+        if (!finiteRay(ray)) continue;  // such a ray adds nothing
+        const ClvCoefficients c = clvDepositCoefficients(layout.storage, ray.direction);
+        const float f[9] = {c.a.x, c.a.y, c.a.z, c.a.w, c.b.x, c.b.y, c.b.z, c.b.w, c.c};
+        if (layout.channels == 1) {
+            const float flux = (ray.flux.x + ray.flux.y + ray.flux.z) * (1.0f / 3.0f);
+            for (int k = 0; k < count; ++k) value[k] = f[k] * flux;
+        } else {
+            for (int k = 0; k < count; ++k) {
+                value[3 * k] = f[k] * ray.flux.x;
+                value[3 * k + 1] = f[k] * ray.flux.y;
+                value[3 * k + 2] = f[k] * ray.flux.z;
+            }
+        }
+        if (withDynamicity) {
+            for (int axis = 0; axis < 3; ++axis) {
+                out.dynamicity[i][2 * axis] = ray.direction[axis] < 0.0f ? ray.dynamicity : 0.0f;
+                out.dynamicity[i][2 * axis + 1] = ray.direction[axis] > 0.0f ? ray.dynamicity : 0.0f;
+            }
+        }
+    }
+}
+
+template <int Stride>
+inline void depositCrossings(const Level& level, std::span<const ClvRay> rays, const PacketDeposits& packet, CrossingBuffer& buffer,
+                             const DepositTarget& target) {
+    float* deposits = target.deposits.data();
+    float* dynamicity = target.dynamicity.empty() ? nullptr : target.dynamicity.data();
+    for (int k = 0; k < buffer.count; ++k) {
+        uint slot = buffer.entry[k];
+        const uint lane = buffer.lane[k];
+        if (slot & kClvSplitBit) [[unlikely]] {
+            const ClvRay& ray = rays[lane];
+            slot = clvSlotFromSplit(level.splits[slot & ~kClvSplitBit], ray.origin + ray.direction * buffer.middle[k]);
+        }
+        const float weight = buffer.weight[k];
+        float* __restrict record = deposits + std::size_t(slot) * Stride;
+        const float* __restrict add = packet.value[lane];
+        for (int j = 0; j < Stride; ++j) record[j] += add[j] * weight;
+        if (dynamicity) {
+            float* side = dynamicity + std::size_t(slot) * 6;
+            for (int j = 0; j < 6; ++j) side[j] = std::max(side[j], packet.dynamicity[lane][j]);
+        }
+    }
+    buffer.count = 0;
+}
+
+template <int Stride>
+void injectStrided(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
+    PacketDeposits packet;
+    CrossingBuffer buffer;
+    for (std::size_t first = 0; first < rays.size(); first += kPacketLanes) {
+        const auto lanes = rays.subspan(first, std::min<std::size_t>(kPacketLanes, rays.size() - first));
+        packetDeposits(layout, lanes, !target.dynamicity.empty(), packet);
+        auto flush = [&](CrossingBuffer& full) { depositCrossings<Stride>(level, lanes, packet, full, target); };
+        walkPacket(level, rule, lanes, buffer, flush);
+        flush(buffer);
+    }
+}
+
+}  // namespace detail
+
+// Adds the rays' deposits to `target`. Serial: rays go in order, so the sums are the same to the last bit from run to run.
+// Different targets may be filled from different threads.
+inline void inject(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
+    switch (layout.stride()) {
+        case 8: return detail::injectStrided<8>(level, layout, rule, rays, target);
+        case 16: return detail::injectStrided<16>(level, layout, rule, rays, target);
+        case 24: return detail::injectStrided<24>(level, layout, rule, rays, target);
+        default: return detail::injectStrided<32>(level, layout, rule, rays, target);
+    }
+}
+
+}  // namespace clv
+#endif

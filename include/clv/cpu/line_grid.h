@@ -1,0 +1,102 @@
+// Lines through a level along its three axes, and where they cross the scene: what the open regions of cells are found from.
+#ifndef CLV_CPU_LINE_GRID_H
+#define CLV_CPU_LINE_GRID_H
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "../data/light_volume.h"
+#include "parallel.h"
+#include "scene_probe.h"
+
+namespace clv {
+
+// A box of cells, [lo, hi) in logical cell coordinates.
+struct CellBox {
+    ivec3 lo, hi;
+};
+
+// perCell^2 lines a cell along each axis. The lines of the three axes meet in a lattice of perCell^3 points a cell.
+class LineGrid {
+public:
+    // Only lines that pass a needed cell are traced; `needed` holds a flag for each cell of the box, x fastest, or is empty (all).
+    LineGrid(const ClvVolume& volume, const CellBox& box, int perCell, const std::vector<std::uint8_t>& needed,
+             const SceneProbe& probe, const ParallelFor& parallelFor)
+        : volume_(volume), box_(box), perCell_(perCell) {
+        const ivec3 size = box.hi - box.lo;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+            std::vector<std::uint8_t> columns(std::size_t(size[b]) * size[c], needed.empty() ? 1 : 0);
+            for (std::size_t i = 0; i < needed.size(); ++i) {
+                if (!needed[i]) continue;
+                const int cell[3] = {int(i) % size.x, int(i) / size.x % size.y, int(i) / (size.x * size.y)};
+                columns[std::size_t(cell[b]) + std::size_t(size[b]) * cell[c]] = 1;
+            }
+            rows_[axis].resize(std::size_t(size[c]) * perCell);
+            parallelFor(rows_[axis].size(), [&](std::size_t row) { traceRow(axis, int(row), columns, probe); });
+        }
+    }
+
+    int perCell() const { return perCell_; }
+
+    // Offset of a lattice coordinate inside a cell, in cells. The small shifts keep lines off surfaces that are aligned with cells.
+    float latticeOffset(int axis, int i) const {
+        const float shift[3] = {0.0132f, -0.0171f, 0.0093f};
+        return (float(i) + 0.5f + shift[axis]) / float(perCell_);
+    }
+
+    // All crossings of the line along `axis` with lattice coordinates (i, j) in cell column (cell[b], cell[c]), b and c the next
+    // two axes in turn. Distances are from the box's lower face, m.
+    std::span<const LineHit> line(int axis, const ivec3& cell, int i, int j) const {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        const Row& row = rows_[axis][std::size_t(cell[c] - box_.lo[c]) * perCell_ + j];
+        const std::size_t k = std::size_t(cell[b] - box_.lo[b]) * perCell_ + i;
+        return {row.hits.data() + row.begin[k], row.begin[k + 1] - row.begin[k]};
+    }
+
+    // Where a cell begins along `axis`, in the distances of line().
+    float cellBegin(int axis, const ivec3& cell) const { return float(cell[axis] - box_.lo[axis]) * volume_.cellSize; }
+
+private:
+    struct Row {
+        std::vector<std::uint32_t> begin;  // a line each, and the end
+        std::vector<LineHit> hits;
+    };
+
+    void traceRow(int axis, int rowIndex, const std::vector<std::uint8_t>& columns, const SceneProbe& probe) {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        const int columnsB = box_.hi[b] - box_.lo[b];
+        const float h = volume_.cellSize;
+        const float length = float(box_.hi[axis] - box_.lo[axis]) * h;
+        Row& row = rows_[axis][rowIndex];
+        row.begin.assign(std::size_t(columnsB) * perCell_ + 1, 0);
+        std::vector<LineHit> hits;
+        vec3 direction(0.0f);
+        direction[axis] = 1.0f;
+        vec3 origin = volume_.origin + h * vec3(box_.lo);
+        // Lines begin before the box and end behind it, so that a solid which the box cuts shows both of its faces.
+        const float margin = length;
+        for (int k = 0; k < columnsB * perCell_; ++k) {
+            row.begin[k] = std::uint32_t(row.hits.size());
+            if (!columns[std::size_t(k / perCell_) + std::size_t(columnsB) * (rowIndex / perCell_)]) continue;
+            vec3 start = origin;
+            start[b] += h * (float(k / perCell_) + latticeOffset(b, k % perCell_));
+            start[c] += h * (float(rowIndex / perCell_) + latticeOffset(c, rowIndex % perCell_));
+            start[axis] -= margin;
+            probe.lineHits(start, direction, length + 2.0f * margin, hits);
+            for (LineHit hit : hits) {
+                hit.distance -= margin;
+                row.hits.push_back(hit);
+            }
+        }
+        row.begin.back() = std::uint32_t(row.hits.size());
+    }
+
+    ClvVolume volume_;
+    CellBox box_;
+    int perCell_;
+    std::vector<Row> rows_[3];
+};
+
+}  // namespace clv
+#endif
