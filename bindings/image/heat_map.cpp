@@ -76,7 +76,7 @@ Image heatMap(std::span<const float> values, int width, int height, double top) 
     }
     for (int tick = 0; tick <= ticks; ++tick) {
         const double share = double(tick) / ticks;
-        for (int x = barLeft + barWidth; x < labelLeft - scale; ++x) picture.at(x, rowOf(share)) = kInk;
+        for (int x = barLeft + barWidth; x < barLeft + barWidth + 2 * scale; ++x) picture.at(x, rowOf(share)) = kInk;
         drawText(picture, labelLeft, rowOf(share) - kGlyphHeight * scale / 2, scale, percentLabel(top * share), kInk);
     }
     return picture;

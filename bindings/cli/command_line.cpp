@@ -1,0 +1,51 @@
+#include "bindings/cli/command_line.h"
+
+#include <algorithm>
+#include <exception>
+#include <string>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include "bindings/scene/scene.h"
+
+namespace clv {
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kRunTimeFailure = 1;
+constexpr int kBadUsageOrInput = 2;
+
+int fail(int status, const CLI::App& app, std::string message) {
+    std::ranges::replace(message, '\n', ' ');
+    std::string who = app.get_name();
+    for (const CLI::App* command : app.get_subcommands()) who += " " + command->get_name();
+    fmt::print(stderr, "{}: {}\n", who, message);
+    return status;
+}
+
+}  // namespace
+
+int runCommandLine(int argc, const char* const* argv) {
+    CLI::App app("Convergent light volumes: indirect diffuse light, in watts per square metre.", "clv");
+    app.set_version_flag("--version", CLV_VERSION);
+    app.require_subcommand(1);
+    addReferenceCommand(app);
+    addScenesCommand(app);
+    addInfoCommand(app);
+    try {
+        app.parse(argc, argv);
+        return kSuccess;
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);  // prints the help or the version
+    } catch (const CLI::Error& error) {
+        return fail(kBadUsageOrInput, app, error.what());
+    } catch (const InputError& error) {
+        return fail(kBadUsageOrInput, app, error.what());
+    } catch (const std::exception& error) {
+        return fail(kRunTimeFailure, app, error.what());
+    }
+}
+
+}  // namespace clv

@@ -1,0 +1,108 @@
+#include "bindings/cli/options.h"
+
+#include <charconv>
+#include <cmath>
+#include <thread>
+
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include "bindings/embree/task_pool.h"
+
+namespace clv {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+}  // namespace
+
+void addCommonOptions(CLI::App& command, CommonOptions& options) {
+    command.add_flag("--json", options.json, "Print one JSON object on stdout, and nothing else there");
+    command.add_option("--backend", options.backend, "What computes: auto, cpu or vulkan")
+        ->check(CLI::IsMember({"auto", "cpu", "vulkan"}))
+        ->capture_default_str();
+    command.add_option("--threads", options.threads, "Threads to use; 0: all of the machine's")
+        ->check(CLI::Range(0, kMaxThreads))
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the random numbers; results are the same for the same seed")->capture_default_str();
+}
+
+int threadCount(const CommonOptions& options) {
+    return options.threads > 0 ? options.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+ParallelFor parallelForOf(const CommonOptions& options) {
+    return tbbParallelFor(threadCount(options));
+}
+
+Report startReport(const CLI::App& command, const CommonOptions& options) {
+    if (options.backend == "vulkan") throw InputError("--backend vulkan: this build has no Vulkan back end; expected auto or cpu");
+    return {{"command", command.get_name()}, {"backend", "cpu"}, {"threads", threadCount(options)}, {"seed", options.seed}};
+}
+
+void addSceneOptions(CLI::App& command, SceneOptions& options, bool required) {
+    auto* scene = command.add_option("--scene", options.scene, "A .glb, .gltf or .obj file, or the name of a built-in scene");
+    required ? scene->required() : scene->capture_default_str();
+    command.add_option("--lights", options.lights, "A JSON file of lights that replace those of the scene");
+}
+
+Scene loadScene(const SceneOptions& options, Report& report) {
+    Scene scene = loadScene(options.scene);
+    if (!options.lights.empty()) scene.lights = loadLights(options.lights, scene.anchor);
+    if (scene.lights.empty())
+        throw InputError(fmt::format("{}: no lights; expected KHR_lights_punctual in the scene, or --lights FILE",
+                                     options.lights.empty() ? options.scene : options.lights));
+    report["scene"] = options.scene;
+    report["triangles"] = scene.triangles.size();
+    report["lights"] = scene.lights.size();
+    if (scene.droppedTriangles > 0) report["dropped_triangles"] = scene.droppedTriangles;
+    if (!scene.ignored.empty()) report["ignored"] = scene.ignored;
+    return scene;
+}
+
+std::uint64_t parseCount(const std::string& option, const std::string& text) {
+    std::uint64_t count = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, count);
+    const std::string_view suffix(rest, std::size_t(end - rest));
+    int shift = -1;
+    if (suffix.empty()) shift = 0;
+    if (suffix == "k") shift = 10;
+    if (suffix == "M") shift = 20;
+    if (error != std::errc() || shift < 0 || count == 0 || count > (UINT64_MAX >> 24))
+        throw InputError(fmt::format("{}: expected a count such as 65536, 64k or 4M, found \"{}\"", option, text));
+    return count << shift;
+}
+
+CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::uint64_t& value, const std::string& description) {
+    return command.add_option_function<std::string>(
+        name, [name, &value](const std::string& text) { value = parseCount(name, text); }, description + " (65536, 64k, 4M)");
+}
+
+CLI::Option* addPositiveOption(CLI::App& command, const std::string& name, double& value, const std::string& description) {
+    const CLI::Validator positive(
+        [](std::string& text) {
+            double number = 0.0;
+            const bool read = CLI::detail::lexical_cast(text, number);
+            return read && std::isfinite(number) && number > 0.0 ? std::string()
+                                                                 : fmt::format("expected a number above 0, found \"{}\"", text);
+        },
+        "POSITIVE");
+    return command.add_option(name, value, description)->check(positive);
+}
+
+void addPointOptions(CLI::App& command, std::string& points, std::string& out, const std::string& columns) {
+    command.add_option("--points", points, "CSV file with the header px,py,pz,nx,ny,nz (m, world space; unit normals)")->required();
+    command.add_option("--out", out, "CSV file to write: the same columns and " + columns)->required();
+}
+
+void addBouncesOption(CLI::App& command, bool& allBounces) {
+    command
+        .add_option_function<std::string>(
+            "--bounces", [&allBounces](const std::string& text) { allBounces = text == "all"; },
+            "one: light, one surface, receiver; all: every path")
+        ->check(CLI::IsMember({"one", "all"}))
+        ->default_str("one");
+}
+
+}  // namespace clv

@@ -1,0 +1,57 @@
+#include "bindings/cli/staged_output.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "bindings/cli/interrupt.h"
+#include "bindings/scene/scene.h"
+
+namespace clv {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path folderOf(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+StagedOutput::StagedOutput(const fs::path& folder) : folder_(folder) {
+    std::string pattern = (folder / ".clv-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+        throw InputError(fmt::format("{}: expected a folder that can be written: {}", folder.string(), std::strerror(errno)));
+    hidden_ = pattern;
+    guardFolder(hidden_);
+}
+
+StagedOutput::~StagedOutput() {
+    std::error_code ignored;
+    fs::remove_all(hidden_, ignored);
+    unguardFolder(hidden_);
+}
+
+std::string StagedOutput::path(const std::string& name) {
+    const fs::path target = folder_ / name;
+    // Renaming over a device such as /dev/null would replace it for everybody.
+    if (fs::exists(target) && !fs::is_regular_file(target))
+        throw InputError(fmt::format("{}: expected the name of a file, but something else has that name", target.string()));
+    names_.push_back(name);
+    return (hidden_ / name).string();
+}
+
+void StagedOutput::commit() {
+    withoutInterrupt([&] {
+        for (const std::string& name : names_) fs::rename(hidden_ / name, folder_ / name);
+    });
+    names_.clear();
+}
+
+StagedFile::StagedFile(const fs::path& file) : output_(folderOf(file)) {
+    if (!file.has_filename()) throw InputError(fmt::format("{}: expected the name of a file", file.string()));
+    path_ = output_.path(file.filename().string());
+}
+
+}  // namespace clv

@@ -1,0 +1,42 @@
+// Output files that appear under their names complete, or not at all.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clv {
+
+// Files are written into a hidden folder inside the one where they belong, and renamed at the end. The hidden folder goes with
+// the object, and on an interrupt.
+class StagedOutput {
+public:
+    // Makes the hidden folder, so that a place that cannot be written shows before the work. Throws InputError.
+    explicit StagedOutput(const std::filesystem::path& folder);
+    ~StagedOutput();
+    StagedOutput(const StagedOutput&) = delete;
+    StagedOutput& operator=(const StagedOutput&) = delete;
+
+    // Where to write the file that will be called `name`. Throws InputError where something other than a file has that name.
+    std::string path(const std::string& name);
+    // Gives all files their names, in the order in which they were asked for.
+    void commit();
+
+private:
+    std::filesystem::path folder_, hidden_;
+    std::vector<std::string> names_;
+};
+
+// The same for a single file.
+class StagedFile {
+public:
+    explicit StagedFile(const std::filesystem::path& file);
+
+    const std::string& path() const { return path_; }
+    void commit() { output_.commit(); }
+
+private:
+    StagedOutput output_;
+    std::string path_;
+};
+
+}  // namespace clv
