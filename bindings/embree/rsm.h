@@ -10,10 +10,9 @@
 
 namespace clv {
 
-// One square map a light: octahedral for point lights, a perspective square around the outer cone for spots (fisheye for wide
-// cones), an orthographic square over the scene's bounds for directional lights.
 // Renders light `light` into texels (resolution * resolution, row by row). Each texel is sampled at a point in it that follows
-// from (texel, pass, seed), so that the mean over passes converges to the exact light, shadow edges included.
+// from (texel, pass, seed), so that the mean over passes converges to the exact light, shadow edges included. How the map lies
+// around the light: clv/stages/rsm.h.
 void renderRsm(const EmbreeScene& scene, const ClvLight& light, int resolution, std::uint32_t pass, std::uint32_t seed,
                const ParallelFor& parallelFor, std::span<ClvRsmTexel> texels);
 

@@ -1,0 +1,106 @@
+// The RSM stage: rays from a light through the texels of its reflective shadow map, and texels from what they hit.
+// A square map a light, u in [0, 1)^2: octahedral for point lights; concentric circles of equal solid angle for spots, so
+// that no texel lies outside of the cone and cones of any width are exact; orthographic over the scene for directional lights.
+// An engine that rasters its own map fills ClvRsmTexel in its own way: later stages do not know how texels lie.
+#ifndef CLV_STAGES_RSM_H
+#define CLV_STAGES_RSM_H
+#include "../data/hit.h"
+#include "../data/light.h"
+#include "../data/ray.h"
+#include "../data/rsm_texel.h"
+#include "../math/octahedral.h"
+#include "../math/sampling.h"
+#include "../math/sobol.h"
+CLV_NAMESPACE_BEGIN
+
+// The point of the map, in [0, 1)^2, at which a texel is sampled: jittered within the texel, well spread over the passes, so
+// that the mean over passes converges to the exact light, shadow edges included.
+CLV_FN vec2 clvRsmSamplePoint(uvec2 texel, uint resolution, uint pass, uint seed) {
+    uint texelSeed = clvHashCombine(seed, texel.y * resolution + texel.x);
+    float x = (float(texel.x) + clvSobolUnit(pass, 0u, texelSeed)) / float(resolution);
+    float y = (float(texel.y) + clvSobolUnit(pass, 1u, texelSeed)) / float(resolution);
+    return vec2(x, y);
+}
+
+// Half the extents, m, of the box [lo, hi] seen along the axis (unit length).
+CLV_FN float clvHalfExtentAlong(vec3 axis, vec3 lo, vec3 hi) { return 0.5f * dot(abs(axis), hi - lo); }
+
+// A ray of a point light: the map's area is 4.
+CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u) {
+    vec2 square = vec2(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f);
+    ClvRay ray;
+    ray.origin = light.position;
+    ray.maxDistance = kClvFar;
+    ray.direction = clvDirectionFromOctahedral(square);
+    ray.dynamicity = light.dynamicity;
+    ray.flux = light.intensity * (4.0f * clvOctahedralSolidAngle(square));
+    ray.pad0 = 0.0f;
+    return ray;
+}
+
+// A ray of a spot light: the map is the cap of the sphere inside the outer cone, by solid angle.
+CLV_FN ClvRay clvSpotLightRay(ClvLight light, vec2 u) {
+    // 1 - cos(outer), without the cancellation that would spoil narrow cones.
+    float halfSine = sin(0.5f * light.outerConeAngle);
+    float capHeight = 2.0f * halfSine * halfSine;
+    vec2 disk = clvDiskFromSquare(u);
+    float height = capHeight * dot(disk, disk);
+    float across = sqrt(capHeight * (2.0f - height));
+    vec3 tangent;
+    vec3 bitangent;
+    clvBasis(light.direction, tangent, bitangent);
+    float falloff = clvSpotFalloff(1.0f - height, light.innerConeAngle, light.outerConeAngle);
+    ClvRay ray;
+    ray.origin = light.position;
+    ray.maxDistance = kClvFar;
+    ray.direction = normalize(light.direction * (1.0f - height) + tangent * (disk.x * across) + bitangent * (disk.y * across));
+    ray.dynamicity = light.dynamicity;
+    ray.flux = light.intensity * (2.0f * kClvPi * capHeight * falloff);
+    ray.pad0 = 0.0f;
+    return ray;
+}
+
+// A ray of a directional light: the map covers the box [lo, hi] (m), and rays start before it.
+CLV_FN ClvRay clvDirectionalLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
+    vec3 tangent;
+    vec3 bitangent;
+    clvBasis(light.direction, tangent, bitangent);
+    float halfWidth = clvHalfExtentAlong(tangent, lo, hi);
+    float halfHeight = clvHalfExtentAlong(bitangent, lo, hi);
+    // A flat scene may have no depth at all: the sum of its extents keeps the start off its surface.
+    vec3 extent = hi - lo;
+    float back = clvHalfExtentAlong(light.direction, lo, hi) + 0.01f * (extent.x + extent.y + extent.z);
+    ClvRay ray;
+    ray.origin = (lo + hi) * 0.5f - light.direction * back + tangent * ((2.0f * u.x - 1.0f) * halfWidth) +
+                 bitangent * ((2.0f * u.y - 1.0f) * halfHeight);
+    ray.maxDistance = kClvFar;
+    ray.direction = light.direction;
+    ray.dynamicity = light.dynamicity;
+    ray.flux = light.intensity * (4.0f * halfWidth * halfHeight);
+    ray.pad0 = 0.0f;
+    return ray;
+}
+
+// The light's ray through point u of its map. Its flux is what the whole map would carry if it were lit as this point is:
+// a texel's share is that divided by the number of texels. [lo, hi]: the scene's bounds, m.
+CLV_FN ClvRay clvLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
+    if (light.type == kClvLightDirectional) return clvDirectionalLightRay(light, u, lo, hi);
+    if (light.type == kClvLightSpot) return clvSpotLightRay(light, u);
+    return clvPointLightRay(light, u);
+}
+
+// The texel that a light's ray makes where it hit; not valid where it met nothing. texelShare: 1 / number of texels.
+CLV_FN ClvRsmTexel clvRsmTexelFromHit(ClvRay lightRay, ClvHit hit, float texelShare) {
+    ClvRsmTexel texel;
+    bool met = hit.distance < kClvFar;
+    texel.position = lightRay.origin + lightRay.direction * (met ? hit.distance : 0.0f);
+    texel.dynamicity = lightRay.dynamicity;
+    texel.normal = hit.normal;
+    texel.valid = met ? 1u : 0u;
+    texel.flux = lightRay.flux * hit.albedo * texelShare;
+    texel.pad0 = 0.0f;
+    return texel;
+}
+
+CLV_NAMESPACE_END
+#endif
