@@ -1,0 +1,37 @@
+#include "bindings/scene/file_bytes.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bindings/scene/scene.h"
+
+namespace clv {
+
+std::vector<std::uint8_t> readFileBytes(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) throw InputError(file + ": no such file");
+    std::ifstream in(file, std::ios::binary);
+    std::vector<std::uint8_t> bytes(std::filesystem::file_size(file, error));
+    in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));
+    if (!in || error) throw InputError(file + ": cannot be read");
+    return bytes;
+}
+
+void writeFileBytes(const std::string& file, const std::vector<std::uint8_t>& bytes) {
+    const std::string temporary = fmt::format("{}.{}.tmp", file, getpid());
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    out.close();
+    std::error_code error;
+    if (out) std::filesystem::rename(temporary, file, error);
+    if (!out || error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw InputError(file + ": cannot be written; expected a folder that exists and can be written to");
+    }
+}
+
+}  // namespace clv

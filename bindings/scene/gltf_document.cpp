@@ -1,0 +1,216 @@
+#include "bindings/scene/gltf_document.h"
+
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "bindings/scene/file_bytes.h"
+
+namespace clv {
+namespace {
+
+constexpr std::uint32_t kGlbMagic = 0x46546c67u, kJsonChunk = 0x4e4f534au, kBinChunk = 0x004e4942u;  // "glTF", "JSON", "BIN\0"
+constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
+constexpr std::size_t kDeepestNode = 256;
+
+std::uint32_t wordAt(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
+    std::uint32_t word;
+    std::memcpy(&word, bytes.data() + offset, sizeof word);
+    return word;
+}
+
+// Takes the JSON out of the container; returns the binary chunk, if there is one.
+std::optional<std::vector<std::uint8_t>> parseGlb(const std::vector<std::uint8_t>& bytes, GltfDocument& document) {
+    auto fail = [&](std::size_t offset, const std::string& expected) {
+        throw InputError(fmt::format("{}: byte {}: expected {}", document.file, offset, expected));
+    };
+    if (bytes.size() < kGlbHeaderBytes) fail(bytes.size(), "a GLB header of 12 bytes; the file is truncated");
+    if (wordAt(bytes, 0) != kGlbMagic) fail(0, "the letters glTF that begin a GLB file");
+    if (wordAt(bytes, 4) != 2) fail(4, "GLB version 2");
+    if (wordAt(bytes, 8) != bytes.size())
+        fail(8, fmt::format("the length of the file, {} bytes, not {}; the file is truncated or damaged", bytes.size(), wordAt(bytes, 8)));
+
+    std::optional<std::vector<std::uint8_t>> binary;
+    bool hasJson = false;
+    for (std::size_t offset = kGlbHeaderBytes; offset < bytes.size();) {
+        if (bytes.size() - offset < kChunkHeaderBytes) fail(offset, "a chunk header of 8 bytes");
+        const std::size_t length = wordAt(bytes, offset);
+        const std::uint32_t type = wordAt(bytes, offset + 4);
+        const std::size_t begin = offset + kChunkHeaderBytes;
+        if (length > bytes.size() - begin) fail(offset, fmt::format("a chunk of at most {} bytes, not {}", bytes.size() - begin, length));
+        if (!hasJson && type != kJsonChunk) fail(offset, "the JSON chunk first");
+        const char* text = reinterpret_cast<const char*>(bytes.data()) + begin;
+        if (!hasJson) document.json = parseJson(document.file, text, text + length);
+        else if (type == kBinChunk && !binary) binary.emplace(bytes.begin() + begin, bytes.begin() + begin + length);
+        hasJson = true;
+        offset = begin + length;
+    }
+    if (!hasJson) fail(kGlbHeaderBytes, "a JSON chunk");
+    return binary;
+}
+
+std::vector<std::uint8_t> decodeBase64(const JsonReader& uri, const std::string& text, std::size_t begin) {
+    static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t bits = 0;
+    int bitCount = 0;
+    std::size_t end = text.find_last_not_of('=') + 1;
+    for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t digit = kDigits.find(text[i]);
+        if (digit == std::string::npos) uri.fail("base64 data");
+        bits = bits << 6 | std::uint32_t(digit);
+        bitCount += 6;
+        if (bitCount < 8) continue;
+        bitCount -= 8;
+        bytes.push_back(std::uint8_t(bits >> bitCount));
+    }
+    return bytes;
+}
+
+std::string decodePercent(const JsonReader& uri, const std::string& text) {
+    std::string path;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            path += text[i];
+            continue;
+        }
+        auto isHex = [&](std::size_t at) { return at < text.size() && std::isxdigit(static_cast<unsigned char>(text[at])); };
+        if (!isHex(i + 1) || !isHex(i + 2)) uri.fail("two hexadecimal digits after each %");
+        path += char(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+        i += 2;
+    }
+    return path;
+}
+
+void readBuffers(GltfDocument& document, std::optional<std::vector<std::uint8_t>> binary) {
+    for (const JsonReader& buffer : document.root().elements("buffers")) {
+        const std::size_t length = buffer["byteLength"].index();
+        const bool isBinaryChunk = !buffer.has("uri") && document.buffers.empty() && binary;
+        if (!buffer.has("uri") && !isBinaryChunk) buffer.fail("a uri, or a binary chunk in the file");
+        document.buffers.push_back(isBinaryChunk ? std::move(*binary) : readUri(document, buffer["uri"]));
+        if (document.buffers.back().size() < length)
+            buffer.fail(fmt::format("{} bytes of data as byteLength says, not {}", length, document.buffers.back().size()));
+    }
+}
+
+// Throws unless bytes [offset, offset + size) lie in a piece of `limit` bytes.
+void checkRange(const JsonReader& place, std::size_t offset, std::size_t size, std::size_t limit) {
+    if (offset > limit || size > limit - offset)
+        place.fail(fmt::format("bytes {} to {} to lie within {} bytes", offset, offset + size, limit));
+}
+
+void checkBufferViews(const GltfDocument& document) {
+    for (const JsonReader& view : document.root().elements("bufferViews")) {
+        const std::size_t buffer = view["buffer"].index(document.buffers.size());
+        const std::size_t stride = view.index("byteStride", 4);
+        if (stride < 4 || stride > 252) view["byteStride"].fail("a whole number from 4 to 252");
+        checkRange(view, view.index("byteOffset", 0), view["byteLength"].index(), document.buffers[buffer].size());
+    }
+}
+
+std::size_t componentBytes(const JsonReader& componentType) {
+    switch (componentType.index()) {
+        case 5120: case 5121: return 1;
+        case 5122: case 5123: return 2;
+        case 5125: case 5126: return 4;
+        default: componentType.fail("5120, 5121, 5122, 5123, 5125 or 5126");
+    }
+}
+
+std::size_t elementBytes(const JsonReader& accessor) {
+    const std::size_t component = componentBytes(accessor["componentType"]);
+    const std::string type = accessor["type"].text();
+    const std::array<std::pair<const char*, std::size_t>, 4> vectors = {{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}}};
+    for (const auto& [name, components] : vectors)
+        if (type == name) return components * component;
+    // Columns of matrices begin at multiples of four bytes.
+    const std::array<std::pair<const char*, std::size_t>, 3> matrices = {{{"MAT2", 2}, {"MAT3", 3}, {"MAT4", 4}}};
+    for (const auto& [name, rows] : matrices)
+        if (type == name) return rows * ((rows * component + 3) / 4 * 4);
+    accessor["type"].fail("SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
+}
+
+// `view` holds the members bufferView and byteOffset.
+void checkElements(const JsonReader& view, const std::vector<JsonReader>& bufferViews, std::size_t count, std::size_t bytes) {
+    const JsonReader& target = bufferViews[view["bufferView"].index(bufferViews.size())];
+    const std::size_t stride = target.index("byteStride", bytes);
+    checkRange(view, view.index("byteOffset", 0), (count - 1) * stride + bytes, target["byteLength"].index());
+}
+
+void checkAccessors(const GltfDocument& document) {
+    const std::vector<JsonReader> bufferViews = document.root().elements("bufferViews");
+    for (const JsonReader& accessor : document.root().elements("accessors")) {
+        const std::size_t bytes = elementBytes(accessor);
+        const std::size_t count = accessor["count"].index(std::size_t(1) << 31);
+        if (count == 0) accessor["count"].fail("at least 1");
+        if (accessor.has("bufferView")) checkElements(accessor, bufferViews, count, bytes);
+        if (!accessor.has("sparse")) continue;
+        const JsonReader sparse = accessor["sparse"];
+        const std::size_t sparseCount = sparse["count"].index(count + 1);
+        if (sparseCount == 0) sparse["count"].fail("at least 1");
+        checkElements(sparse["indices"], bufferViews, sparseCount, componentBytes(sparse["indices"]["componentType"]));
+        checkElements(sparse["values"], bufferViews, sparseCount, bytes);
+    }
+}
+
+// Every node has at most one parent and none lies below itself, so that walks end.
+void checkNodes(const GltfDocument& document) {
+    const std::vector<JsonReader> nodes = document.root().elements("nodes");
+    std::vector<std::size_t> parent(nodes.size(), nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const JsonReader& child : nodes[i].elements("children")) {
+            const std::size_t index = child.index(nodes.size());
+            if (parent[index] != nodes.size()) child.fail(fmt::format("a node without another parent; node {} has one", index));
+            parent[index] = i;
+        }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::size_t depth = 0;
+        for (std::size_t above = parent[i]; above != nodes.size(); above = parent[above])
+            if (++depth > kDeepestNode) nodes[i].fail(fmt::format("at most {} nodes above it, and no cycle", kDeepestNode));
+    }
+}
+
+}  // namespace
+
+ByteRange bufferViewBytes(const GltfDocument& document, std::size_t index) {
+    const JsonReader view = document.root().elements("bufferViews")[index];
+    return {document.buffers[view["buffer"].index()].data() + view.index("byteOffset", 0), view["byteLength"].index()};
+}
+
+std::vector<std::uint8_t> readUri(const GltfDocument& document, const JsonReader& uri) {
+    const std::string text = uri.text();
+    if (text.rfind("data:", 0) == 0) {
+        const std::string marker = ";base64,";
+        const std::size_t data = text.find(marker);
+        if (data == std::string::npos) uri.fail("base64 data after data:");
+        return decodeBase64(uri, text, data + marker.size());
+    }
+    const std::filesystem::path beside = std::filesystem::path(document.file).parent_path() / decodePercent(uri, text);
+    if (!std::filesystem::is_regular_file(beside)) uri.fail(fmt::format("a file {}", beside.string()));
+    return readFileBytes(beside.string());
+}
+
+GltfDocument readGltf(const std::string& file) {
+    GltfDocument document;
+    document.file = file;
+    const std::vector<std::uint8_t> bytes = readFileBytes(file);
+    std::optional<std::vector<std::uint8_t>> binary;
+    const std::string extension = std::filesystem::path(file).extension().string();
+    if (extension == ".glb" || extension == ".GLB") {
+        binary = parseGlb(bytes, document);
+    } else {
+        const char* text = reinterpret_cast<const char*>(bytes.data());
+        document.json = parseJson(file, text, text + bytes.size());
+    }
+    const JsonReader version = document.root()["asset"]["version"];
+    if (version.text().rfind("2.", 0) != 0) version.fail("glTF version 2.x");
+    readBuffers(document, std::move(binary));
+    checkBufferViews(document);
+    checkAccessors(document);
+    checkNodes(document);
+    return document;
+}
+
+}  // namespace clv
