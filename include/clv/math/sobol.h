@@ -70,8 +70,9 @@ CLV_FN float clvSobolUnit(uint index, uint dimension, uint seed) {
     return clvUnitFloat(clvReverseBits(bits));
 }
 
-// Point `index` of the scrambled sequence, in [0, 1)^4. Any 2^n consecutive indices from a multiple of 2^n on are
-// stratified in each coordinate and in the pairs (0, 1) and (2, 3); frames go on counting where the last one stopped.
+// Point `index` of the scrambled sequence, in [0, 1)^4; frames go on counting where the last one stopped.
+// Any 2^m indices in a row from a multiple of 2^m on put one point into each of the 2^m equal boxes of a grid over one
+// coordinate or over the pair (0, 1), four into each of 2^(m-2) over the pair (2, 3), eight into each of 2^(m-3) over all four.
 CLV_FN vec4 clvSobol4(uint index, uint seed) {
     return vec4(clvSobolUnit(index, 0u, seed), clvSobolUnit(index, 1u, seed),
                 clvSobolUnit(index, 2u, seed), clvSobolUnit(index, 3u, seed));
