@@ -212,7 +212,7 @@ Scene makeAtrium() {
     addAtriumCamera(builder, "court", {-9.6, 1.7, 1.3}, {8.0, 3.4, -1.2}, 1.0f);
     addAtriumCamera(builder, "ground arcade", {-12.6, 1.8, -5.0}, {2.0, 2.2, -3.4}, 1.0f);
     addAtriumCamera(builder, "upper arcade", {9.2, 7.9, 4.9}, {-4.0, 6.3, -2.2}, 1.0f);
-    addAtriumCamera(builder, "overview", {-17.5, 22.0, 15.5}, {0.5, 4.0, -0.5}, 0.8f);
+    addAtriumCamera(builder, "overview", {-16.0, 29.0, 8.5}, {0.5, 3.0, -1.0}, 0.75f);
     return std::move(builder).finish("atrium");
 }
 

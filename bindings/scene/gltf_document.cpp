@@ -2,54 +2,16 @@
 
 #include <array>
 #include <cctype>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 
 #include "bindings/scene/file_bytes.h"
+#include "bindings/scene/glb_container.h"
 
 namespace clv {
 namespace {
 
-constexpr std::uint32_t kGlbMagic = 0x46546c67u, kJsonChunk = 0x4e4f534au, kBinChunk = 0x004e4942u;  // "glTF", "JSON", "BIN\0"
-constexpr std::size_t kGlbHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr std::size_t kDeepestNode = 256;
-
-std::uint32_t wordAt(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
-    std::uint32_t word;
-    std::memcpy(&word, bytes.data() + offset, sizeof word);
-    return word;
-}
-
-// Takes the JSON out of the container; returns the binary chunk, if there is one.
-std::optional<std::vector<std::uint8_t>> parseGlb(const std::vector<std::uint8_t>& bytes, GltfDocument& document) {
-    auto fail = [&](std::size_t offset, const std::string& expected) {
-        throw InputError(fmt::format("{}: byte {}: expected {}", document.file, offset, expected));
-    };
-    if (bytes.size() < kGlbHeaderBytes) fail(bytes.size(), "a GLB header of 12 bytes; the file is truncated");
-    if (wordAt(bytes, 0) != kGlbMagic) fail(0, "the letters glTF that begin a GLB file");
-    if (wordAt(bytes, 4) != 2) fail(4, "GLB version 2");
-    if (wordAt(bytes, 8) != bytes.size())
-        fail(8, fmt::format("the length of the file, {} bytes, not {}; the file is truncated or damaged", bytes.size(), wordAt(bytes, 8)));
-
-    std::optional<std::vector<std::uint8_t>> binary;
-    bool hasJson = false;
-    for (std::size_t offset = kGlbHeaderBytes; offset < bytes.size();) {
-        if (bytes.size() - offset < kChunkHeaderBytes) fail(offset, "a chunk header of 8 bytes");
-        const std::size_t length = wordAt(bytes, offset);
-        const std::uint32_t type = wordAt(bytes, offset + 4);
-        const std::size_t begin = offset + kChunkHeaderBytes;
-        if (length > bytes.size() - begin) fail(offset, fmt::format("a chunk of at most {} bytes, not {}", bytes.size() - begin, length));
-        if (!hasJson && type != kJsonChunk) fail(offset, "the JSON chunk first");
-        const char* text = reinterpret_cast<const char*>(bytes.data()) + begin;
-        if (!hasJson) document.json = parseJson(document.file, text, text + length);
-        else if (type == kBinChunk && !binary) binary.emplace(bytes.begin() + begin, bytes.begin() + begin + length);
-        hasJson = true;
-        offset = begin + length;
-    }
-    if (!hasJson) fail(kGlbHeaderBytes, "a JSON chunk");
-    return binary;
-}
 
 std::vector<std::uint8_t> decodeBase64(const JsonReader& uri, const std::string& text, std::size_t begin) {
     static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -199,10 +161,11 @@ GltfDocument readGltf(const std::string& file) {
     std::optional<std::vector<std::uint8_t>> binary;
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension == ".glb" || extension == ".GLB") {
-        binary = parseGlb(bytes, document);
+        GlbParts parts = unpackGlb(file, bytes);
+        document.json = std::move(parts.document);
+        binary = std::move(parts.binary);
     } else {
-        const char* text = reinterpret_cast<const char*>(bytes.data());
-        document.json = parseJson(file, text, text + bytes.size());
+        document.json = parseJson(file, bytes);
     }
     const JsonReader version = document.root()["asset"]["version"];
     if (version.text().rfind("2.", 0) != 0) version.fail("glTF version 2.x");

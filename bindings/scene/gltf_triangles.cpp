@@ -1,9 +1,9 @@
 #include "bindings/scene/gltf_triangles.h"
 
-#include <cstring>
-
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
+
+#include "bindings/scene/glb_container.h"
 
 namespace clv {
 namespace {
@@ -12,20 +12,6 @@ using nlohmann::json;
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;  // glTF primitive modes
-
-void append(std::vector<std::uint8_t>& bytes, const void* data, std::size_t size) {
-    const auto* begin = static_cast<const std::uint8_t*>(data);
-    bytes.insert(bytes.end(), begin, begin + size);
-}
-
-void appendWord(std::vector<std::uint8_t>& bytes, std::size_t word) {
-    const auto value = std::uint32_t(word);
-    append(bytes, &value, sizeof value);
-}
-
-void padTo(std::vector<std::uint8_t>& bytes, std::size_t alignment, std::uint8_t filler) {
-    while (bytes.size() % alignment != 0) bytes.push_back(filler);
-}
 
 std::size_t triangleCount(const JsonReader& primitive, const std::vector<JsonReader>& accessors) {
     const JsonReader attributes = primitive["attributes"];
@@ -91,11 +77,10 @@ struct ReducedGltf {
 void joinBuffers(const GltfDocument& document, ReducedGltf& reduced) {
     std::vector<std::size_t> begin;
     for (const std::vector<std::uint8_t>& buffer : document.buffers) {
-        padTo(reduced.binary, 8, 0);
+        padBytes(reduced.binary, 8, 0);
         begin.push_back(reduced.binary.size());
-        append(reduced.binary, buffer.data(), buffer.size());
+        appendBytes(reduced.binary, buffer.data(), buffer.size());
     }
-    padTo(reduced.binary, 4, 0);
     reduced.document["buffers"] = {{{"byteLength", reduced.binary.size()}}};
     reduced.document["bufferViews"] = json::array();
     for (const JsonReader& view : document.root().elements("bufferViews")) {
@@ -104,25 +89,6 @@ void joinBuffers(const GltfDocument& document, ReducedGltf& reduced) {
         if (view.has("byteStride")) moved["byteStride"] = view["byteStride"].index();
         reduced.document["bufferViews"].push_back(moved);
     }
-}
-
-std::vector<std::uint8_t> glbBytes(const ReducedGltf& reduced) {
-    constexpr std::size_t kHeaders = 12 + 8 + 8;
-    const std::string dumped = reduced.document.dump();
-    std::vector<std::uint8_t> text(dumped.begin(), dumped.end());
-    padTo(text, 4, ' ');
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(kHeaders + text.size() + reduced.binary.size());
-    append(bytes, "glTF", 4);
-    appendWord(bytes, 2);
-    appendWord(bytes, kHeaders + text.size() + reduced.binary.size());
-    appendWord(bytes, text.size());
-    append(bytes, "JSON", 4);
-    append(bytes, text.data(), text.size());
-    appendWord(bytes, reduced.binary.size());
-    append(bytes, "BIN", 4);
-    append(bytes, reduced.binary.data(), reduced.binary.size());
-    return bytes;
 }
 
 GltfPrimitive takeTriangles(const aiMesh& mesh) {
@@ -179,7 +145,7 @@ std::vector<std::vector<GltfPrimitive>> decodeTriangles(const GltfDocument& docu
     if (expected.empty()) return result;
 
     joinBuffers(document, reduced);
-    const std::vector<std::uint8_t> bytes = glbBytes(reduced);
+    const std::vector<std::uint8_t> bytes = packGlb(reduced.document, std::move(reduced.binary));
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "glb");
     if (!scene || !scene->mRootNode) throw InputError(fmt::format("{}: meshes: {}", document.file, importer.GetErrorString()));

@@ -1,7 +1,7 @@
 // Reads JSON with the place of every value at hand, so that an error says where it is and what was expected.
 #pragma once
-#include <cmath>
-#include <limits>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,9 +89,9 @@ private:
 };
 
 // Throws InputError that says at which byte the text stops being JSON.
-inline nlohmann::json parseJson(const std::string& file, const char* begin, const char* end) {
+inline nlohmann::json parseJson(const std::string& file, std::span<const std::uint8_t> text) {
     try {
-        return nlohmann::json::parse(begin, end);
+        return nlohmann::json::parse(text.begin(), text.end());
     } catch (const nlohmann::json::parse_error& error) {
         throw InputError(fmt::format("{}: byte {}: expected well-formed JSON", file, error.byte));
     } catch (const nlohmann::json::out_of_range&) {
