@@ -46,8 +46,9 @@ CLV_FN float clvFramesFromWeight(float weight) { return 1.0f / max(weight, 1.0e-
 CLV_FN float clvMergeValue(float history, float current, float weight) {
     if (!clvIsFinite(current) || !clvIsFinite(weight)) return history;
     if (!clvIsFinite(history)) return current;
-    // Not (1 - weight) * history + weight * current, which lets a history that equals the current value drift.
-    return history + weight * (current - history);
+    // From the nearer end: a weight of 1 leaves no trace of a large history, and equal values stay equal to the bit.
+    float step = current - history;
+    return weight < 0.5f ? history + weight * step : current - (1.0f - weight) * step;
 }
 
 // Dynamicity of a cell: the largest wins at once, and wears off slowly.
@@ -65,9 +66,8 @@ CLV_FN float clvAngleBetween(vec3 a, vec3 b) { return clvAtan2(length(cross(a, b
 CLV_FN float clvLightDynamicity(CLV_IN(ClvLight) previous, CLV_IN(ClvLight) current, ClvMovementScales scales) {
     if (previous.type != current.type) return 1.0f;
     float moved = length(current.position - previous.position);
-    float turned = clvAngleBetween(previous.direction, current.direction) +
-                   abs(current.innerConeAngle - previous.innerConeAngle) +
-                   abs(current.outerConeAngle - previous.outerConeAngle);
+    float turned = clvAngleBetween(previous.direction, current.direction);
+    float widened = abs(current.innerConeAngle - previous.innerConeAngle) + abs(current.outerConeAngle - previous.outerConeAngle);
     vec3 change = abs(current.intensity - previous.intensity);
     vec3 larger = max(current.intensity, previous.intensity);
     float peak = max(larger.x, max(larger.y, larger.z));
@@ -75,6 +75,7 @@ CLV_FN float clvLightDynamicity(CLV_IN(ClvLight) previous, CLV_IN(ClvLight) curr
     float sum = dimmed / scales.change;
     if (current.type != kClvLightDirectional) sum += moved / scales.distance;
     if (current.type != kClvLightPoint) sum += turned / scales.angle;
+    if (current.type == kClvLightSpot) sum += widened / scales.angle;
     return clvIsFinite(sum) ? min(sum, 1.0f) : 1.0f;
 }
 
