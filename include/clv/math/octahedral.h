@@ -30,13 +30,5 @@ CLV_FN vec2 clvOctahedralFromDirection(vec3 direction) {
     return square;
 }
 
-// Solid angle per area of the square, sr: an area dA of the square covers sqrt(3) dA of the octahedron, whose plane lies
-// 1/sqrt(3) away and is seen at the cosine 1/(sqrt(3) |p|), so it covers dA / |p|^3 of the sphere. In all 4 pi.
-CLV_FN float clvOctahedralSolidAngle(vec2 square) {
-    vec3 p = clvOctahedronFromSquare(square);
-    float squared = dot(p, p);
-    return 1.0f / (squared * sqrt(squared));
-}
-
 CLV_NAMESPACE_END
 #endif

@@ -1,6 +1,7 @@
 // The RSM stage: rays from a light through the texels of its reflective shadow map, and texels from what they hit.
-// A square map a light, u in [0, 1)^2: octahedral for point lights; concentric circles of equal solid angle for spots, so
-// that no texel lies outside of the cone and cones of any width are exact; orthographic over the scene for directional lights.
+// A square map a light, u in [0, 1)^2, whose texels all cover the same solid angle or area, so that the light's flux is exact at
+// any resolution: concentric circles that fill the cone for a spot, the same on either hemisphere for a point light, and an
+// orthographic map over the scene for a directional light.
 // An engine that rasters its own map fills ClvRsmTexel in its own way: later stages do not know how texels lie.
 #ifndef CLV_STAGES_RSM_H
 #define CLV_STAGES_RSM_H
@@ -8,7 +9,6 @@
 #include "../data/light.h"
 #include "../data/ray.h"
 #include "../data/rsm_texel.h"
-#include "../math/octahedral.h"
 #include "../math/sampling.h"
 #include "../math/sobol.h"
 CLV_NAMESPACE_BEGIN
@@ -25,36 +25,58 @@ CLV_FN vec2 clvRsmSamplePoint(uvec2 texel, uint resolution, uint pass, uint seed
 // Half the extents, m, of the box [lo, hi] seen along the axis (unit length).
 CLV_FN float clvHalfExtentAlong(vec3 axis, vec3 lo, vec3 hi) { return 0.5f * dot(abs(axis), hi - lo); }
 
-// A ray of a point light: the map's area is 4.
+// Direction of unit length in a cap around `axis` (unit length), uniform by solid angle: heights under the pole are uniform
+// (Archimedes). capHeight: 1 - cosine of the cap's half angle, (0, 2]; its solid angle is 2 pi capHeight.
+CLV_FN vec3 clvCapFromSquare(vec2 u, vec3 axis, float capHeight) {
+    vec2 disk = clvDiskFromSquare(u);
+    float height = capHeight * dot(disk, disk);
+    // The sine over the disk's radius; clamped, because rounding can push a height above 2.
+    float across = sqrt(capHeight * max(0.0f, 2.0f - height));
+    vec3 tangent;
+    vec3 bitangent;
+    clvBasis(axis, tangent, bitangent);
+    return normalize(axis * (1.0f - height) + tangent * (disk.x * across) + bitangent * (disk.y * across));
+}
+
+// The point of the square that clvCapFromSquare maps to `direction`.
+CLV_FN vec2 clvSquareFromCap(vec3 direction, vec3 axis, float capHeight) {
+    vec3 tangent;
+    vec3 bitangent;
+    clvBasis(axis, tangent, bitangent);
+    float x = dot(direction, tangent);
+    float y = dot(direction, bitangent);
+    float sine = sqrt(x * x + y * y);
+    if (sine == 0.0f) return vec2(0.5f, 0.5f);
+    // sin^2 / (1 + cos) is 1 - cos without its cancellation near the pole.
+    float height = sine * sine / (1.0f + dot(direction, axis));
+    float scale = sqrt(min(1.0f, height / capHeight)) / sine;
+    return clvSquareFromDisk(vec2(x * scale, y * scale));
+}
+
+// A ray of a point light: one half of the map for each hemisphere.
 CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u) {
-    vec2 square = vec2(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f);
+    float side = u.x < 0.5f ? 0.0f : 1.0f;
     ClvRay ray;
     ray.origin = light.position;
     ray.maxDistance = kClvFar;
-    ray.direction = clvDirectionFromOctahedral(square);
+    ray.direction = clvCapFromSquare(vec2(2.0f * u.x - side, u.y), vec3(0.0f, 1.0f - 2.0f * side, 0.0f), 1.0f);
     ray.dynamicity = light.dynamicity;
-    ray.flux = light.intensity * (4.0f * clvOctahedralSolidAngle(square));
+    ray.flux = light.intensity * (4.0f * kClvPi);
     ray.pad0 = 0.0f;
     return ray;
 }
 
-// A ray of a spot light: the map is the cap of the sphere inside the outer cone, by solid angle.
+// A ray of a spot light: the map is the cap of the sphere inside the outer cone.
 CLV_FN ClvRay clvSpotLightRay(ClvLight light, vec2 u) {
     // 1 - cos(outer), without the cancellation that would spoil narrow cones.
     float halfSine = sin(0.5f * light.outerConeAngle);
     float capHeight = 2.0f * halfSine * halfSine;
-    vec2 disk = clvDiskFromSquare(u);
-    float height = capHeight * dot(disk, disk);
-    float across = sqrt(capHeight * (2.0f - height));
-    vec3 tangent;
-    vec3 bitangent;
-    clvBasis(light.direction, tangent, bitangent);
-    float falloff = clvSpotFalloff(1.0f - height, light.innerConeAngle, light.outerConeAngle);
     ClvRay ray;
     ray.origin = light.position;
     ray.maxDistance = kClvFar;
-    ray.direction = normalize(light.direction * (1.0f - height) + tangent * (disk.x * across) + bitangent * (disk.y * across));
+    ray.direction = clvCapFromSquare(u, light.direction, capHeight);
     ray.dynamicity = light.dynamicity;
+    float falloff = clvSpotFalloff(dot(ray.direction, light.direction), light.innerConeAngle, light.outerConeAngle);
     ray.flux = light.intensity * (2.0f * kClvPi * capHeight * falloff);
     ray.pad0 = 0.0f;
     return ray;
