@@ -32,6 +32,8 @@ Texture decodeTexture(const std::vector<std::uint8_t>& bytes, const std::string&
     OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;  // alpha plays no part: base colour must not be multiplied by it
+    OIIO::Filesystem::IOProxy* proxy = &memory;
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const auto input = OIIO::ImageInput::open(nameOfFormat(bytes, name), &config, &memory);
     if (!input) throw InputError(fmt::format("{}: '{}': expected an image ({})", place, name, OIIO::geterror()));
     const OIIO::ImageSpec& spec = input->spec();
