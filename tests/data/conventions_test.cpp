@@ -4,7 +4,12 @@
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "clv/clv.h"
+#include "clv/data/cascades.h"
+#include "clv/data/engine_space.h"
+#include "clv/data/hit.h"
+#include "clv/data/light.h"
+#include "clv/data/ray_packed.h"
+#include "clv/data/rsm_texel.h"
 
 using namespace clv;
 

@@ -1,0 +1,60 @@
+// Convergent light volumes: real-time indirect diffuse light, after Bratten and Linden (2013).
+// The umbrella header: the version and everything that shaders and C++ share. Read conventions.h next.
+//
+// The way of the light through the stages:
+//   rsm       light, scene       -> ClvRsmTexel[]   lit surface samples
+//   rays      ClvRsmTexel        -> ClvRay          into the texel's hemisphere
+//   trace     ClvRay             -> ClvRay, ClvHit  cut at the first surface; the caller's own tracer
+//   inject    ClvRay             -> deposits        into the cells that it crosses
+//   merge     deposits, history  -> history
+//   evaluate  position, normal   -> irradiance
+// cpu/ runs them as loops (include its headers one by one); plan/ decides what a scene needs.
+#ifndef CLV_CLV_H
+#define CLV_CLV_H
+
+#define CLV_VERSION_MAJOR 0
+#define CLV_VERSION_MINOR 1
+#define CLV_VERSION_PATCH 0
+
+#include "conventions.h"
+#include "lang.h"
+#include "math/constants.h"
+#include "math/finite.h"
+#include "math/hash.h"
+#include "math/octahedral.h"
+#include "math/pack.h"
+#include "math/sampling.h"
+#include "math/sh.h"
+#include "math/sobol.h"
+#include "data/cascades.h"
+#include "data/cell.h"
+#include "data/engine_space.h"
+#include "data/hit.h"
+#include "data/light.h"
+#include "data/light_volume.h"
+#include "data/ray.h"
+#include "data/ray_packed.h"
+#include "data/rsm_texel.h"
+#include "stages/evaluate.h"
+#include "stages/inject.h"
+#include "stages/merge.h"
+#include "stages/rays.h"
+#include "stages/rsm.h"
+#include "stages/trace.h"
+#include "plan/cascade_placement.h"
+#include "cpu/aligned.h"
+#include "cpu/build_level.h"
+#include "cpu/cell_regions.h"
+#include "cpu/evaluate.h"
+#include "cpu/inject.h"
+#include "cpu/level.h"
+#include "cpu/line_grid.h"
+#include "cpu/packet_walk.h"
+#include "cpu/parallel.h"
+#include "cpu/rays.h"
+#include "cpu/scene_probe.h"
+#include "cpu/still_lighting.h"
+#include "cpu/texel_sampler.h"
+#include "cpu/volume.h"
+
+#endif
