@@ -30,12 +30,16 @@ int fail(int status, const CLI::App& app, std::string message) {
 int runCommandLine(int argc, const char* const* argv) {
     CLI::App app("Convergent light volumes: indirect diffuse light, in watts per square metre.", "clv");
     app.set_version_flag("--version", CLV_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
+    addIrradianceCommand(app);
     addReferenceCommand(app);
+    addRenderCommand(app);
     addScenesCommand(app);
     addInfoCommand(app);
     try {
         app.parse(argc, argv);
+        // Asked for here: CLI11 would name the missing command before an argument that it does not know.
+        if (app.get_subcommands().empty()) return fail(kBadUsageOrInput, app, "expected a command; see clv --help");
         return kSuccess;
     } catch (const CLI::Success& asked) {
         return app.exit(asked);  // prints the help or the version

@@ -1,7 +1,7 @@
 #include "bindings/cli/options.h"
 
 #include <charconv>
-#include <cmath>
+#include <limits>
 #include <thread>
 
 #include <CLI/Formatter.hpp>
@@ -79,16 +79,19 @@ CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::uin
         name, [name, &value](const std::string& text) { value = parseCount(name, text); }, description + " (65536, 64k, 4M)");
 }
 
-CLI::Option* addPositiveOption(CLI::App& command, const std::string& name, double& value, const std::string& description) {
-    const CLI::Validator positive(
-        [](std::string& text) {
+CLI::Validator finiteNumber(double above, double atMost, const std::string& expected) {
+    return CLI::Validator(
+        [=](std::string& text) {
             double number = 0.0;
-            const bool read = CLI::detail::lexical_cast(text, number);
-            return read && std::isfinite(number) && number > 0.0 ? std::string()
-                                                                 : fmt::format("expected a number above 0, found \"{}\"", text);
+            // Comparisons that a value that is not a number fails.
+            const bool good = CLI::detail::lexical_cast(text, number) && number > above && number <= atMost;
+            return good ? std::string() : fmt::format("expected {}, found \"{}\"", expected, text);
         },
-        "POSITIVE");
-    return command.add_option(name, value, description)->check(positive);
+        "NUMBER");
+}
+
+CLI::Option* addPositiveOption(CLI::App& command, const std::string& name, double& value, const std::string& description) {
+    return command.add_option(name, value, description)->check(finiteNumber(0.0, std::numeric_limits<double>::max(), "a number above 0"));
 }
 
 void addPointOptions(CLI::App& command, std::string& points, std::string& out, const std::string& columns) {

@@ -1,0 +1,43 @@
+// clv irradiance: indirect irradiance at given points, read from a light volume.
+#include <memory>
+
+#include "bindings/cli/command_line.h"
+#include "bindings/cli/light_options.h"
+#include "bindings/cli/metrics.h"
+#include "bindings/cli/options.h"
+#include "bindings/cli/point_table.h"
+#include "bindings/cli/staged_output.h"
+
+namespace clv {
+namespace {
+
+struct IrradianceCommand {
+    CommonOptions common;
+    SceneOptions scene;
+    std::string points, out, motion;
+    LightOptions light;
+
+    void run(const CLI::App& command) const {
+        Report report = startReport(command, common);
+        if (!motion.empty()) throw InputError("--motion: light in motion is not available yet; expected a still scene");
+        const Scene loaded = loadScene(scene, report);
+        const PointTable table = readPointTable(points, loaded.anchor);
+        StagedFile output(out);
+        throw std::runtime_error("the light volume is not there yet");
+    }
+};
+
+}  // namespace
+
+void addIrradianceCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("irradiance", "Compute indirect irradiance at points through a light volume");
+    auto options = std::make_shared<IrradianceCommand>();
+    addSceneOptions(*command, options->scene, true);
+    addPointOptions(*command, options->points, options->out, "E_r,E_g,E_b (indirect irradiance, W/m^2)");
+    addLightOptions(*command, options->light);
+    command->add_option("--motion", options->motion, "A JSON file of moving lights, camera and objects");
+    addCommonOptions(*command, options->common);
+    command->callback([options, command] { options->run(*command); });
+}
+
+}  // namespace clv

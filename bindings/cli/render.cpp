@@ -1,0 +1,165 @@
+// clv render: pictures of the light that a camera sees, and of its error.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "bindings/cli/camera_view.h"
+#include "bindings/cli/command_line.h"
+#include "bindings/cli/light_options.h"
+#include "bindings/cli/metrics.h"
+#include "bindings/cli/options.h"
+#include "bindings/cli/progress.h"
+#include "bindings/cli/reference_run.h"
+#include "bindings/cli/staged_output.h"
+#include "bindings/image/heat_map.h"
+#include "bindings/image/tone_map.h"
+
+namespace clv {
+namespace {
+
+constexpr int kMaxPictureSide = 16384;
+
+// Per surface, in the order of the pixels; W/m^2.
+struct SurfaceLight {
+    std::vector<glm::vec3> direct, indirect, reference;
+};
+
+std::vector<glm::vec3> sum(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+    std::vector<glm::vec3> values(a.size());
+    std::ranges::transform(a, b, values.begin(), std::plus<>());
+    return values;
+}
+
+std::vector<glm::vec3> directLight(const EmbreeScene& scene, std::span<const ReferencePoint> points, const ParallelFor& parallelFor) {
+    constexpr std::size_t kPiece = 1024;
+    Progress progress("direct light");
+    std::vector<glm::vec3> irradiance(points.size());
+    Progress::watch(parallelFor, [&](double share) { progress.update(share); })((points.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        for (std::size_t i = piece * kPiece; i < std::min(points.size(), (piece + 1) * kPiece); ++i)
+            irradiance[i] = directIrradiance(scene, points[i].position, points[i].normal);
+    });
+    return irradiance;
+}
+
+std::vector<glm::vec3> volumeLight(const Scene&, const LightOptions&, std::span<const ReferencePoint>) {
+    throw std::runtime_error("the light volume is not there yet");
+}
+
+// The four pictures and the map of the error, ready to be written.
+class Pictures {
+public:
+    Pictures(int width, int height, std::span<const VisibleSurface> surfaces, const SurfaceLight& light) {
+        const auto picture = [&](const std::vector<glm::vec3>& irradiance) { return radianceImage(width, height, surfaces, irradiance); };
+        pictures_ = {{"direct", picture(light.direct)},
+                     {"indirect", picture(light.indirect)},
+                     {"combined", picture(sum(light.direct, light.indirect))},
+                     {"reference", picture(sum(light.direct, light.reference))}};
+        // One exposure for all, so that they can be compared by eye.
+        exposure_ = autoExposure(pictures_.back().image);
+
+        std::vector<float> errors(std::size_t(width) * std::size_t(height), std::numeric_limits<float>::quiet_NaN());
+        const std::vector<float> pointwise = pointErrors(light.indirect, light.reference);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) errors[surfaces[i].pixel] = pointwise[i];
+        const double p95 = summarizeErrors(light.indirect, light.reference).p95;
+        errorTop_ = p95 > 0.0 && std::isfinite(p95) ? niceCeiling(p95) : 1.0;
+        errorMap_ = heatMap(errors, width, height, errorTop_);
+    }
+
+    float exposure() const { return exposure_; }
+    double errorTop() const { return errorTop_; }
+
+    // Returns the names of the files.
+    std::vector<std::string> write(StagedOutput& output) const {
+        std::vector<std::string> names;
+        const auto stage = [&](const std::string& name) { return output.path(names.emplace_back(name)); };
+        for (const Picture& picture : pictures_) {
+            writeExr(picture.image, stage(picture.name + ".exr"));
+            writePng(toneMap(picture.image, exposure_), stage(picture.name + ".png"));
+        }
+        writePng(errorMap_, stage("error.png"));
+        return names;
+    }
+
+private:
+    struct Picture {
+        std::string name;
+        Image image;
+    };
+    std::vector<Picture> pictures_;
+    Image errorMap_;
+    float exposure_ = 1.0f;
+    double errorTop_ = 1.0;
+};
+
+// Makes the folder where it is missing. Throws InputError.
+std::filesystem::path outputFolder(const std::string& name) {
+    std::error_code error;
+    std::filesystem::create_directory(name, error);
+    if (!std::filesystem::is_directory(name)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", name));
+    return name;
+}
+
+struct RenderCommand {
+    CommonOptions common;
+    SceneOptions scene;
+    LightOptions light;
+    ReferenceBudget budget{.samples = 256};
+    std::string camera = "0", out;
+    int width = 640, height = 0;  // pixels; height 0: follows from the camera
+
+    void run(const CLI::App& command) const {
+        Report report = startReport(command, common);
+        const Scene loaded = loadScene(scene, report);
+        const Camera& view = chooseCamera(loaded, camera);
+        const int rows = height > 0 ? height : std::max(1, int(std::lround(float(width) / view.aspect)));
+        StagedOutput output(outputFolder(out));
+
+        const ParallelFor parallelFor = parallelForOf(common);
+        const EmbreeScene embree(loaded);
+        const std::vector<VisibleSurface> surfaces = visibleSurfaces(embree, view, width, rows, parallelFor);
+        if (surfaces.empty()) throw InputError(fmt::format("--camera {}: it looks past the scene; expected surfaces in sight", camera));
+        const std::vector<ReferencePoint> points = pointsOf(surfaces);
+        const ReferenceRun reference = runReference(embree, points, budget, light.allBounces, common.seed, parallelFor);
+        const SurfaceLight lit{directLight(embree, points, parallelFor), volumeLight(loaded, light, points), reference.irradiance()};
+
+        const Pictures pictures(width, rows, surfaces, lit);
+        const std::vector<std::string> names = pictures.write(output);
+        output.commit();
+
+        report["camera"] = view.name;
+        report["size"] = {width, rows};
+        report["bounces"] = light.allBounces ? "all" : "one";
+        report["exposure"] = pictures.exposure();
+        report["error_map_top"] = pictures.errorTop();
+        report["reference"] = {{"samples_per_pixel", reference.samplesPerPoint},
+                               {"relative_standard_error", relativeStandardError(reference.results)},
+                               {"seconds", reference.seconds}};
+        const ErrorSummary errors = summarizeErrors(lit.indirect, lit.reference);
+        report["errors"] = {{"relative_rmse", errors.relativeRmse}, {"bias", errors.bias}, {"p95", errors.p95}};
+        report["out"] = out;
+        report["files"] = names;
+        printReport(report, common);
+    }
+};
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Render direct, indirect, combined and reference light, and the error");
+    auto options = std::make_shared<RenderCommand>();
+    addSceneOptions(*command, options->scene, false);
+    command->add_option("--out", options->out, "Folder for the pictures; made where it is missing")->required();
+    command->add_option("--camera", options->camera, "Camera to look through, by name or index")->capture_default_str();
+    command->add_option("--width", options->width, "Pixels")->check(CLI::Range(1, kMaxPictureSide))->capture_default_str();
+    command->add_option("--height", options->height, "Pixels; default: from the width and the camera")->check(CLI::Range(1, kMaxPictureSide));
+    addLightOptions(*command, options->light);
+    addCountOption(*command, "--samples", options->budget.samples, "Paths a pixel of the reference");
+    addCommonOptions(*command, options->common);
+    command->callback([options, command] { options->run(*command); });
+}
+
+}  // namespace clv

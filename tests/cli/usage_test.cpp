@@ -1,0 +1,103 @@
+// Exit statuses and the one line that goes with a failure.
+#include <algorithm>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.h"
+#include "cli/temporary_folder.h"
+#include "clv/clv.h"
+
+namespace {
+
+using namespace clv;
+using Arguments = std::vector<std::string>;
+
+class Usage : public TemporaryFolder {
+protected:
+    void SetUp() override {
+        TemporaryFolder::SetUp();
+        points_ = write("p.csv", "px,py,pz,nx,ny,nz\n0,0,0,0,1,0\n");
+    }
+    // A complete call of `command` with more arguments behind.
+    Arguments call(const std::string& command, const Arguments& more = {}) const {
+        Arguments all = {command, "--scene", "cornell", "--points", points_, "--out", file("r.csv")};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    // Expects exit status 2, nothing on stdout, and one line on stderr that holds each of `words`; and no output file.
+    void expectRefused(const Arguments& arguments, const Arguments& words) const {
+        const auto before = listing();
+        const CommandResult result = runCommand(arguments);
+        EXPECT_EQ(result.status, 2);
+        EXPECT_EQ(result.out, "");
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        for (const std::string& word : words) EXPECT_NE(result.err.find(word), std::string::npos) << result.err << "lacks " << word;
+        EXPECT_EQ(listing(), before);
+    }
+
+    std::string points_;
+};
+
+TEST_F(Usage, helpAndVersionAreAnsweredOnStdout) {
+    for (const Arguments& arguments : {Arguments{"--help"}, {"irradiance", "--help"}, {"reference", "--help"}, {"render", "--help"}, {"scenes", "--help"}, {"info", "--help"}}) {
+        const CommandResult result = runCommand(arguments);
+        EXPECT_EQ(result.status, 0);
+        EXPECT_EQ(result.err, "");
+        EXPECT_NE(result.out.find("--help"), std::string::npos);
+    }
+    const std::string version = std::to_string(CLV_VERSION_MAJOR) + "." + std::to_string(CLV_VERSION_MINOR) + "." + std::to_string(CLV_VERSION_PATCH);
+    EXPECT_EQ(runCommand({"--version"}).out, version + "\n");
+}
+
+TEST_F(Usage, badUsageIsRefusedInOneLine) {
+    expectRefused({}, {"clv --help"});
+    expectRefused({"paint"}, {"paint"});
+    expectRefused({"irradiance", "--scene", "cornell"}, {"clv irradiance", "--points"});
+    expectRefused(call("irradiance", {"--wrong"}), {"--wrong"});
+    expectRefused(call("reference", {"--threads", "-1"}), {"--threads"});
+    expectRefused(call("reference", {"--seed", "-1"}), {"--seed"});
+    expectRefused(call("reference", {"--backend", "metal"}), {"--backend"});
+    expectRefused(call("reference", {"--bounces", "two"}), {"--bounces"});
+    expectRefused(call("reference", {"--samples", "16", "--seconds", "1"}), {"--samples", "--seconds"});
+    expectRefused(call("reference", {"--seconds", "nan"}), {"--seconds", "nan"});
+    expectRefused(call("reference", {"--target-error", "0"}), {"--target-error"});
+}
+
+TEST_F(Usage, resolutionsRaysAndShiftsOutOfRangeAreRefused) {
+    for (const char* resolution : {"0", "1000000", "1025", "-4", "big"}) expectRefused(call("irradiance", {"--resolution", resolution}), {"--resolution"});
+    for (const char* rays : {"0", "-1", "64q", "k", "64kk", "99999999999999999999"}) expectRefused(call("irradiance", {"--rays", rays}), {"--rays"});
+    for (const char* shift : {"0.5", "0,0", "0,0,2", "0,0,nan", "a,b,c"}) expectRefused(call("irradiance", {"--cell-shift", shift}), {"--cell-shift"});
+    expectRefused(call("irradiance", {"--storage", "cube10"}), {"--storage", "cube9"});
+    expectRefused(call("irradiance", {"--frames", "0"}), {"--frames"});
+    expectRefused(call("irradiance", {"--rays", "64k", "--seconds", "1"}), {"--rays", "--seconds"});
+    expectRefused(call("irradiance", {"--motion", "m.json"}), {"--motion", "not available yet"});
+}
+
+TEST_F(Usage, vulkanIsRefusedAndAutoTakesTheCpu) {
+    expectRefused({"info", "--backend", "vulkan"}, {"this build has no Vulkan back end"});
+    const CommandResult result = runCommand({"info", "--backend", "auto", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(result.out).at("backend"), "cpu");
+}
+
+TEST_F(Usage, badInputIsRefusedInOneLineThatNamesIt) {
+    expectRefused({"reference", "--scene", "nowhere.glb", "--points", points_, "--out", file("r.csv")}, {"nowhere.glb"});
+    expectRefused({"reference", "--scene", "cornell", "--points", file("none.csv"), "--out", file("r.csv")}, {"none.csv"});
+    const std::string bad = write("bad.csv", "px,py,pz,nx,ny,nz\n0,0,0,0,3,0\n");
+    expectRefused({"reference", "--scene", "cornell", "--points", bad, "--out", file("r.csv")}, {"bad.csv:2", "unit length"});
+    expectRefused({"irradiance", "--scene", "cornell", "--points", bad, "--out", file("r.csv")}, {"bad.csv:2", "unit length"});
+    expectRefused(call("reference", {"--lights", write("l.json", "{\"lights\":[]}")}), {"l.json", "lights"});
+}
+
+TEST_F(Usage, aPlaceThatCannotBeWrittenIsRefused) {
+    expectRefused({"reference", "--scene", "cornell", "--points", points_, "--out", file("missing/r.csv")}, {"missing", "can be written"});
+    expectRefused({"scenes", "--write", points_ + "/cornell.glb"}, {"p.csv", "can be written"});
+    expectRefused({"render", "--scene", "cornell", "--out", points_}, {"p.csv"});
+}
+
+TEST_F(Usage, anOutputThatCannotBePrintedIsAFailureAtRunTime) {
+    const int status = std::system(CLV_BINARY_DIR "/clv info > /dev/full 2> /dev/null");
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+}  // namespace
