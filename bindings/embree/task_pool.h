@@ -4,7 +4,7 @@
 
 namespace clv {
 
-// Runs on `threads` threads (0: all of the machine's), the calling one among them.
+// Runs on `threads` threads, the calling one among them; 0, or more than the machine has: on all of the machine's.
 ParallelFor tbbParallelFor(int threads = 0);
 
 }  // namespace clv
