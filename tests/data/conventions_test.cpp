@@ -1,15 +1,9 @@
-// Layouts that C++ and shaders must agree on, and the conversions to and from the axes and depths of engines.
+// Conversions to and from the axes and depths of engines.
 #include <gtest/gtest.h>
 
-#include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "clv/data/cascades.h"
 #include "clv/data/engine_space.h"
-#include "clv/data/hit.h"
-#include "clv/data/light.h"
-#include "clv/data/ray_packed.h"
-#include "clv/data/rsm_texel.h"
 
 using namespace clv;
 
@@ -20,36 +14,6 @@ const vec3 kX(1.0f, 0.0f, 0.0f), kY(0.0f, 1.0f, 0.0f), kZ(0.0f, 0.0f, 1.0f);
 
 // +1 where the map keeps handedness, -1 where it mirrors.
 float handedness(vec3 (*map)(vec3)) { return dot(cross(map(kX), map(kY)), map(kZ)); }
-
-TEST(Layout, sharedStructsHaveTheSizesAndOffsetsOfTheirShaderTwins) {
-    EXPECT_EQ(sizeof(ClvRay), 48u);
-    EXPECT_EQ(offsetof(ClvRay, maxDistance), 12u);
-    EXPECT_EQ(offsetof(ClvRay, direction), 16u);
-    EXPECT_EQ(offsetof(ClvRay, dynamicity), 28u);
-    EXPECT_EQ(offsetof(ClvRay, flux), 32u);
-    EXPECT_EQ(sizeof(ClvRsmTexel), 48u);
-    EXPECT_EQ(offsetof(ClvRsmTexel, dynamicity), 12u);
-    EXPECT_EQ(offsetof(ClvRsmTexel, normal), 16u);
-    EXPECT_EQ(offsetof(ClvRsmTexel, valid), 28u);
-    EXPECT_EQ(offsetof(ClvRsmTexel, flux), 32u);
-    EXPECT_EQ(sizeof(ClvHit), 32u);
-    EXPECT_EQ(offsetof(ClvHit, distance), 12u);
-    EXPECT_EQ(offsetof(ClvHit, albedo), 16u);
-    EXPECT_EQ(offsetof(ClvHit, primitive), 28u);
-    EXPECT_EQ(sizeof(ClvLight), 64u);
-    EXPECT_EQ(offsetof(ClvLight, type), 12u);
-    EXPECT_EQ(offsetof(ClvLight, direction), 16u);
-    EXPECT_EQ(offsetof(ClvLight, intensity), 32u);
-    EXPECT_EQ(offsetof(ClvLight, dynamicity), 48u);
-    EXPECT_EQ(sizeof(ClvVolume), 48u);
-    EXPECT_EQ(offsetof(ClvVolume, cellSize), 12u);
-    EXPECT_EQ(offsetof(ClvVolume, resolution), 16u);
-    EXPECT_EQ(offsetof(ClvVolume, storage), 28u);
-    EXPECT_EQ(offsetof(ClvVolume, scroll), 32u);
-    EXPECT_EQ(sizeof(ClvRayPacked), 32u);
-    EXPECT_EQ(offsetof(ClvRayPacked, load), 16u);
-    EXPECT_EQ(sizeof(ClvCascades), kClvMaxCascades * sizeof(ClvVolume) + 16u);
-}
 
 TEST(EngineSpace, upAndAheadOfEachEngineArriveAtTheLibrarysUpAndAhead) {
     EXPECT_EQ(clvFromZUp(kZ), kY);

@@ -25,6 +25,15 @@ TEST(Finite, knowsInfinityAndNan) {
     EXPECT_FALSE(clvIsFinite(vec3(0.0f, kNan, 0.0f)));
 }
 
+TEST(Round, takesTheNearestIntegerAndHalvesUp) {
+    EXPECT_EQ(clvRound(0.5f), 1u);
+    EXPECT_EQ(clvRound(1.5f), 2u);
+    EXPECT_EQ(clvRound(2.5f), 3u);
+    EXPECT_EQ(clvRound(std::nextafter(0.5f, 0.0f)), 0u);
+    EXPECT_EQ(clvRound(8388609.0f), 8388609u);
+    EXPECT_EQ(clvRound(16777215.0f), 16777215u);
+}
+
 TEST(Unorm16, roundTripsAllCodesAndRoundsToTheNearest) {
     for (uint code = 0; code < 65536u; ++code) ASSERT_EQ(clvUnorm16FromFloat(clvFloatFromUnorm16(code)), code);
     for (uint i = 0; i < 200000; ++i) {
