@@ -13,14 +13,6 @@ double sumOfChannels(const glm::dvec3& v) {
     return v.x + v.y + v.z;
 }
 
-// The smallest value that at least 95 % of the values do not exceed; 0 for none.
-double percentile95(std::vector<float> values) {
-    if (values.empty()) return 0.0;
-    const auto rank = std::size_t(std::ceil(0.95 * double(values.size()))) - 1;
-    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(rank));
-    return values[rank];
-}
-
 }  // namespace
 
 double relativeTo(double a, double b) {
@@ -46,6 +38,13 @@ std::vector<float> pointErrors(std::span<const glm::vec3> estimate, std::span<co
         errors.push_back(float(relativeTo(glm::length(difference), std::max(glm::length(glm::dvec3(truth[i])), floor))));
     }
     return errors;
+}
+
+double percentile95(std::vector<float> values) {
+    if (values.empty()) return 0.0;
+    const auto rank = std::size_t(std::ceil(0.95 * double(values.size()))) - 1;
+    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(rank));
+    return values[rank];
 }
 
 ErrorSummary summarizeErrors(std::span<const glm::vec3> estimate, std::span<const glm::vec3> truth) {

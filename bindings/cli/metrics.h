@@ -20,6 +20,9 @@ ErrorSummary summarizeErrors(std::span<const glm::vec3> estimate, std::span<cons
 // |E - T| / max(|T|, 0.05 mean |T|) a point, lengths of RGB vectors.
 std::vector<float> pointErrors(std::span<const glm::vec3> estimate, std::span<const glm::vec3> truth);
 
+// The smallest value that at least 95 % of the values do not exceed; 0 for none.
+double percentile95(std::vector<float> values);
+
 // Light on the dark side of a wall: the mean estimate there over the mean truth there; where no light should be at all, over
 // the mean estimate on the lit side.
 double leak(std::span<const glm::vec3> darkEstimate, std::span<const glm::vec3> darkTruth, std::span<const glm::vec3> litEstimate);

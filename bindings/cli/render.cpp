@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -22,6 +22,10 @@ namespace clv {
 namespace {
 
 constexpr int kMaxPictureSide = 16384;
+// Pixels on the side of a block of the error map: 64 pixels cut the noise of the reference to an eighth.
+constexpr int kErrorBlock = 8;
+// Pixels at which errors are measured with a reference of its own, exact enough for that.
+constexpr std::size_t kMeasuredPixels = 2048;
 
 // Per surface, in the order of the pixels; W/m^2.
 struct SurfaceLight {
@@ -58,18 +62,17 @@ public:
                      {"indirect", picture(light.indirect)},
                      {"combined", picture(sum(light.direct, light.indirect))},
                      {"reference", picture(sum(light.direct, light.reference))}};
-        // One exposure for all, so that they can be compared by eye.
         exposure_ = autoExposure(pictures_.back().image);
 
-        std::vector<float> errors(std::size_t(width) * std::size_t(height), std::numeric_limits<float>::quiet_NaN());
-        const std::vector<float> pointwise = pointErrors(light.indirect, light.reference);
-        for (std::size_t i = 0; i < surfaces.size(); ++i) errors[surfaces[i].pixel] = pointwise[i];
-        const double p95 = summarizeErrors(light.indirect, light.reference).p95;
-        errorTop_ = p95 > 0.0 && std::isfinite(p95) ? niceCeiling(p95) : 1.0;
+        const std::vector<float> errors = blockErrors(width, height, kErrorBlock, surfaces, light.indirect, light.reference);
+        std::vector<float> seen;
+        std::ranges::copy_if(errors, std::back_inserter(seen), [](float error) { return std::isfinite(error); });
+        const double p95 = percentile95(seen);
+        errorTop_ = p95 > 0.0 ? niceCeiling(p95) : 1.0;
         errorMap_ = heatMap(errors, width, height, errorTop_);
     }
 
-    float exposure() const { return exposure_; }
+    float exposure() const { return exposure_.scale; }
     double errorTop() const { return errorTop_; }
 
     // Returns the names of the files.
@@ -91,9 +94,18 @@ private:
     };
     std::vector<Picture> pictures_;
     Image errorMap_;
-    float exposure_ = 1.0f;
+    Exposure exposure_;
     double errorTop_ = 1.0;
 };
+
+// Every so many-th of the values, kMeasuredPixels of them at most.
+template <class Value>
+std::vector<Value> measuredOf(const std::vector<Value>& values) {
+    const std::size_t count = std::min(kMeasuredPixels, values.size());
+    std::vector<Value> picked;
+    for (std::size_t i = 0; i < count; ++i) picked.push_back(values[i * values.size() / count]);
+    return picked;
+}
 
 // Makes the folder where it is missing. Throws InputError.
 std::filesystem::path outputFolder(const std::string& name) {
@@ -107,7 +119,8 @@ struct RenderCommand {
     CommonOptions common;
     SceneOptions scene;
     LightOptions light;
-    ReferenceBudget budget{.samples = 256};
+    std::uint64_t samples = 64;         // of the reference, a pixel
+    std::uint64_t errorSamples = 8192;  // where errors are measured, a pixel
     std::string camera = "0", out;
     int width = 640, height = 0;  // pixels; height 0: follows from the camera
 
@@ -123,8 +136,10 @@ struct RenderCommand {
         const std::vector<VisibleSurface> surfaces = visibleSurfaces(embree, view, width, rows, parallelFor);
         if (surfaces.empty()) throw InputError(fmt::format("--camera {}: it looks past the scene; expected surfaces in sight", camera));
         const std::vector<ReferencePoint> points = pointsOf(surfaces);
-        const ReferenceRun reference = runReference(embree, points, budget, light.allBounces, common.seed, parallelFor);
-        const SurfaceLight lit{directLight(embree, points, parallelFor), volumeLight(loaded, light, points), reference.irradiance()};
+        const SurfaceLight lit{directLight(embree, points, parallelFor), volumeLight(loaded, light, points),
+                               runReference(embree, points, {.samples = samples}, light.allBounces, common.seed, parallelFor).irradiance()};
+        const ReferenceRun truth =
+            runReference(embree, measuredOf(points), {.samples = errorSamples}, light.allBounces, common.seed, parallelFor);
 
         const Pictures pictures(width, rows, surfaces, lit);
         const std::vector<std::string> names = pictures.write(output);
@@ -135,11 +150,12 @@ struct RenderCommand {
         report["bounces"] = light.allBounces ? "all" : "one";
         report["exposure"] = pictures.exposure();
         report["error_map_top"] = pictures.errorTop();
-        report["reference"] = {{"samples_per_pixel", reference.samplesPerPoint},
-                               {"relative_standard_error", relativeStandardError(reference.results)},
-                               {"seconds", reference.seconds}};
-        const ErrorSummary errors = summarizeErrors(lit.indirect, lit.reference);
-        report["errors"] = {{"relative_rmse", errors.relativeRmse}, {"bias", errors.bias}, {"p95", errors.p95}};
+        const ErrorSummary errors = summarizeErrors(measuredOf(lit.indirect), truth.irradiance());
+        report["errors"] = {{"relative_rmse", errors.relativeRmse},
+                            {"bias", errors.bias},
+                            {"p95", errors.p95},
+                            {"pixels", truth.results.size()},
+                            {"relative_standard_error", relativeStandardError(truth.results)}};
         report["out"] = out;
         report["files"] = names;
         printReport(report, common);
@@ -157,7 +173,8 @@ void addRenderCommand(CLI::App& app) {
     command->add_option("--width", options->width, "Pixels")->check(CLI::Range(1, kMaxPictureSide))->capture_default_str();
     command->add_option("--height", options->height, "Pixels; default: from the width and the camera")->check(CLI::Range(1, kMaxPictureSide));
     addLightOptions(*command, options->light);
-    addCountOption(*command, "--samples", options->budget.samples, "Paths a pixel of the reference");
+    addCountOption(*command, "--samples", options->samples, "Paths a pixel of the reference picture");
+    addCountOption(*command, "--error-samples", options->errorSamples, "Paths a pixel where errors are measured");
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });
 }

@@ -7,11 +7,17 @@ namespace clv {
 // Relative luminance of linear RGB with Rec. 709 primaries.
 float luminance(const glm::vec3& rgb);
 
-// The factor that brings the log-average luminance of the lit pixels to middle grey, 0.18 (their equations 1 and 2);
-// 1 where nothing is lit.
-float autoExposure(const Image& radiance);
+// How a picture is brought to the screen. Pictures that are to be compared by eye share one.
+struct Exposure {
+    float scale = 1.0f;  // multiplies radiance
+    float white = 1.0f;  // scaled luminance that becomes 1; larger ones are cut off
+};
 
-// Scales by `exposure` and compresses luminance so that `white` and above become 1 (their equation 4); hue is kept.
-Image toneMap(const Image& radiance, float exposure, float white = 4.0f);
+// Brings the log-average luminance of the lit pixels to middle grey, 0.18 (their equations 1 and 2), and the brightest pixel
+// to white.
+Exposure autoExposure(const Image& radiance);
+
+// Scales and compresses luminance (their equation 4); hue is kept.
+Image toneMap(const Image& radiance, const Exposure& exposure);
 
 }  // namespace clv

@@ -51,6 +51,21 @@ TEST(CameraView, radianceIsAlbedoTimesIrradianceOverPiAndBlackElsewhere) {
     for (int x = 0; x < 4; ++x) EXPECT_EQ(image.at(x, 1), glm::vec3(0.0f));
 }
 
+TEST(CameraView, errorsAreThoseOfBlocksOfPixelsAndNotANumberWhereNothingIsSeen) {
+    std::vector<VisibleSurface> surfaces;
+    for (std::size_t pixel : {0, 1, 2, 3, 4}) surfaces.push_back({pixel, {}, {}});
+    // A picture of 4 x 2 in blocks of 2: pixels 0, 1 and 4 share one, in which the errors cancel.
+    const std::vector<glm::vec3> truth(5, glm::vec3(1, 0, 0));
+    const std::vector<glm::vec3> estimate = {{1.5f, 0, 0}, {0.5f, 0, 0}, {2, 0, 0}, {1.5f, 0, 0}, {1, 0, 0}};
+    const std::vector<float> map = blockErrors(4, 2, 2, surfaces, estimate, truth);
+    ASSERT_EQ(map.size(), 8u);
+    EXPECT_NEAR(map[0], 0.0f, 1e-6f);
+    EXPECT_NEAR(map[4], 0.0f, 1e-6f);
+    EXPECT_NEAR(map[2], 0.75f, 1e-6f);
+    EXPECT_EQ(map[2], map[3]);
+    for (int pixel : {5, 6, 7}) EXPECT_TRUE(std::isnan(map[std::size_t(pixel)]));
+}
+
 TEST(CameraView, camerasAreChosenByNameFirstAndElseByIndex) {
     const Scene scene = quarterWall();
     EXPECT_EQ(&chooseCamera(scene, "front"), &scene.cameras[0]);
