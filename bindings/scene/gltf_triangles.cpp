@@ -1,5 +1,8 @@
 #include "bindings/scene/gltf_triangles.h"
 
+#include <algorithm>
+#include <cstring>
+
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 
@@ -12,6 +15,7 @@ using nlohmann::json;
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr std::size_t kTriangles = 4, kStrip = 5, kFan = 6;  // glTF primitive modes
+constexpr std::size_t kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;  // glTF component types
 
 std::size_t triangleCount(const JsonReader& primitive, const std::vector<JsonReader>& accessors) {
     const JsonReader attributes = primitive["attributes"];
@@ -29,8 +33,20 @@ void checkType(const JsonReader& accessor, const std::string& type, bool typeIsG
         accessor.fail(fmt::format("{} of {}", type, type == "SCALAR" ? "unsigned integers" : "32-bit floats"));
 }
 
-void checkPrimitive(const JsonReader& primitive, const json& reduced, const std::vector<JsonReader>& accessors) {
-    constexpr std::size_t kUnsignedByte = 5121, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+// Indices are packed: their buffer views have no stride.
+std::uint32_t largestIndex(const GltfDocument& document, const JsonReader& indices) {
+    const std::size_t bytes = indices["componentType"].index() == kUnsignedByte ? 1 : indices["componentType"].index() == kUnsignedShort ? 2 : 4;
+    const std::uint8_t* next = bufferViewBytes(document, indices["bufferView"].index()).begin + indices.index("byteOffset", 0);
+    std::uint32_t largest = 0;
+    for (std::size_t i = indices["count"].index(); i > 0; --i, next += bytes) {
+        std::uint32_t index = 0;
+        std::memcpy(&index, next, bytes);
+        largest = std::max(largest, index);
+    }
+    return largest;
+}
+
+void checkPrimitive(const GltfDocument& document, const JsonReader& primitive, const json& reduced, const std::vector<JsonReader>& accessors) {
     auto accessorOf = [&](const JsonReader& index) { return accessors[index.index(accessors.size())]; };
     const bool isCompressed = primitive.has("extensions") && primitive["extensions"].has(kDraco);
     const JsonReader positions = accessorOf(primitive["attributes"]["POSITION"]);
@@ -46,19 +62,21 @@ void checkPrimitive(const JsonReader& primitive, const json& reduced, const std:
     const JsonReader indices = accessorOf(primitive["indices"]);
     const std::size_t type = indices["componentType"].index();
     checkType(indices, "SCALAR", type == kUnsignedByte || type == kUnsignedShort || type == kUnsignedInt);
-    if (!isCompressed && !indices.has("bufferView")) indices.fail("a member 'bufferView'");
+    if (isCompressed) return;
+    if (!indices.has("bufferView")) indices.fail("a member 'bufferView'");
+    const std::size_t vertices = positions["count"].index();
+    if (largestIndex(document, indices) >= vertices) primitive["indices"].fail(fmt::format("indices below {}, the number of vertices", vertices));
 }
 
 // What assimp needs to know of a primitive: positions, indices and the one set of texture coordinates that its material reads.
-json reducePrimitive(const JsonReader& primitive, const json& original, const std::vector<std::size_t>& texCoordOfMaterial,
-                     std::size_t accessorCount) {
+json reducePrimitive(const JsonReader& primitive, const std::vector<std::size_t>& texCoordOfMaterial, std::size_t accessorCount) {
     const std::size_t set = primitive.has("material") ? texCoordOfMaterial[primitive["material"].index(texCoordOfMaterial.size())] : 0;
     const std::string texCoord = fmt::format("TEXCOORD_{}", set);
-    json reduced = {{"attributes", {{"POSITION", original["attributes"]["POSITION"]}}}, {"mode", primitive.index("mode", kTriangles)}};
     const JsonReader attributes = primitive["attributes"];
+    json reduced = {{"attributes", {{"POSITION", attributes["POSITION"].index(accessorCount)}}}, {"mode", primitive.index("mode", kTriangles)}};
     const bool hasUvs = attributes.has(texCoord.c_str());
     if (hasUvs) reduced["attributes"]["TEXCOORD_0"] = attributes[texCoord.c_str()].index(accessorCount);
-    if (primitive.has("indices")) reduced["indices"] = original["indices"];
+    if (primitive.has("indices")) reduced["indices"] = primitive["indices"].index(accessorCount);
     if (!primitive.has("extensions") || !primitive["extensions"].has(kDraco)) return reduced;
     const JsonReader draco = primitive["extensions"][kDraco], ids = draco["attributes"];
     json& compressed = reduced["extensions"][kDraco];
@@ -132,9 +150,8 @@ std::vector<std::vector<GltfPrimitive>> decodeTriangles(const GltfDocument& docu
             if (primitive.index("mode", kTriangles) < kTriangles) continue;
             if (primitive.index("mode", kTriangles) > kFan) primitive["mode"].fail("a mode from 0 to 6");
             const std::size_t triangles = triangleCount(primitive, accessors);
-            const json& original = document.json["meshes"][m]["primitives"][p];
-            json slim = reducePrimitive(primitive, original, texCoordOfMaterial, accessors.size());
-            checkPrimitive(primitive, slim, accessors);
+            const json slim = reducePrimitive(primitive, texCoordOfMaterial, accessors.size());
+            checkPrimitive(document, primitive, slim, accessors);
             const std::size_t node = expected.size();
             reduced.document["meshes"].push_back({{"name", std::to_string(node)}, {"primitives", {slim}}});
             reduced.document["nodes"].push_back({{"name", std::to_string(node)}, {"mesh", node}});
@@ -155,8 +172,7 @@ std::vector<std::vector<GltfPrimitive>> decodeTriangles(const GltfDocument& docu
         const aiNode* node = scene->mRootNode->FindNode(std::to_string(i).c_str());
         if (!node || node->mNumMeshes != 1) primitive.fail("a primitive that can be decoded");
         const aiMesh& mesh = *scene->mMeshes[node->mMeshes[0]];
-        if (mesh.mNumFaces != triangles)
-            primitive["indices"].fail(fmt::format("indices below {}, the number of vertices", mesh.mNumVertices));
+        if (mesh.mNumFaces != triangles) primitive.fail(fmt::format("{} triangles, not the {} that could be decoded", triangles, mesh.mNumFaces));
         result[m][p] = takeTriangles(mesh);
     }
     return result;

@@ -211,7 +211,6 @@ void GltfImport::addLight(const JsonReader& node, const glm::dmat4& worldFromNod
     } else {
         light["type"].fail("point, spot or directional");
     }
-    checkLight(made, fmt::format("{}: {} '{}'", document_.file, light.place(), name));
     builder_.addLight(name, made, glm::dvec3(worldFromNode[3]));
 }
 

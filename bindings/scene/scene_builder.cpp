@@ -120,10 +120,16 @@ Scene SceneBuilder::finish(const std::string& source) && {
     scene_.anchor = chooseAnchor(bounds);
     scene_.positions.reserve(positionsWorld_.size());
     for (const glm::dvec3& position : positionsWorld_) scene_.positions.push_back(glm::vec3(position - scene_.anchor));
-    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
-        scene_.lights[i].light.position = glm::vec3(lightPositionsWorld_[i] - scene_.anchor);
-    for (std::size_t i = 0; i < scene_.cameras.size(); ++i)
-        scene_.cameras[i].position = glm::vec3(cameraPositionsWorld_[i] - scene_.anchor);
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        auto& [name, light] = scene_.lights[i];
+        light.position = glm::vec3(lightPositionsWorld_[i] - scene_.anchor);
+        checkLight(light, fmt::format("{}: light '{}'", source, name));
+    }
+    for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
+        Camera& camera = scene_.cameras[i];
+        camera.position = glm::vec3(cameraPositionsWorld_[i] - scene_.anchor);
+        if (!isFinite(camera.position)) throw InputError(fmt::format("{}: camera '{}': expected a finite position", source, camera.name));
+    }
     scene_.bounds = {glm::vec3(bounds.lo - scene_.anchor), glm::vec3(bounds.hi - scene_.anchor)};
 
     dropZeroAreaTriangles();
@@ -176,6 +182,7 @@ void checkLight(const ClvLight& light, const std::string& place) {
     for (int channel = 0; channel < 3; ++channel)
         if (!(light.intensity[channel] >= 0.0f && std::isfinite(light.intensity[channel])))
             throw InputError(fmt::format("{}: intensity {} is not finite and >= 0", place, light.intensity[channel]));
+    if (!isFinite(light.position)) throw InputError(place + ": expected a finite position");
     if (light.type != kClvLightPoint && !(std::abs(glm::length(light.direction) - 1.0f) < 1e-3f))
         throw InputError(place + ": expected a direction that is not zero");
     if (light.type != kClvLightSpot) return;
