@@ -52,7 +52,7 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
                     if (!needed.empty() && !needed[flag]) continue;
                     ivec3 cell(x, y, int(z));
                     CellRegions regions = finder.find(cell);
-                    if (regions.count > 0) slabs[z].emplace_back(clvCellIndex(volume, cell), regions);
+                    if (!regions.regions.empty()) slabs[z].emplace_back(clvCellIndex(volume, cell), std::move(regions));
                 }
             }
         });
@@ -61,8 +61,7 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
             if (!needed.empty() && !needed[i]) continue;
             ivec3 cell(int(i) % size.x, int(i) / size.x % size.y, int(i) / (size.x * size.y));
             CellRegions regions;
-            regions.count = 1;
-            regions.region[0] = {volume.cellSize * volume.cellSize * volume.cellSize, clvCellCenter(volume, cell), clvCellCenter(volume, cell)};
+            regions.regions.push_back({volume.cellSize * volume.cellSize * volume.cellSize, clvCellCenter(volume, cell), clvCellCenter(volume, cell)});
             slabs[cell.z].emplace_back(clvCellIndex(volume, cell), regions);
         }
     }
@@ -71,16 +70,16 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
     std::vector<std::uint8_t> cut(cells, 0);
     for (const auto& slab : slabs) {
         for (const auto& [cell, regions] : slab) {
-            const uint first = uint(level.slots.size());
-            for (int r = 0; r < regions.count; ++r) {
-                level.slots.push_back({regions.region[r].centroid, regions.region[r].volume, ~0u, ~0u, cell, 0});
-                inside.push_back(regions.region[r].inside);
+            const uint first = uint(level.slots.size()), root = uint(level.splits.size());
+            for (const OpenRegion& region : regions.regions) {
+                level.slots.push_back({region.centroid, region.volume, uvec4(~0u), cell, 0, 0, 0});
+                inside.push_back(region.inside);
             }
             cut[cell] = regions.cut;
-            level.table[cell] = first;
-            if (regions.count == 2) {
-                level.table[cell] = kClvSplitBit | uint(level.splits.size());
-                level.splits.push_back({regions.planeNormal, regions.planeOffset, first, first + 1, 0, 0});
+            level.table[cell] = regions.splits.empty() ? first : kClvSplitBit | root;
+            auto child = [&](int index) { return index < 0 ? first + uint(-1 - index) : kClvSplitBit | (root + uint(index)); };
+            for (const RegionSplit& split : regions.splits) {
+                level.splits.push_back({split.plane, child(split.front), child(split.back), first, uint(regions.regions.size())});
             }
         }
     }
@@ -95,12 +94,8 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
             const uint index = clvCellIndex(volume, other);
             const uint entry = level.table[index];
             if (entry == kClvNoSlot || !(cut[slot.cell] || cut[index])) continue;
-            if (entry & kClvSplitBit) {
-                visit(k, level.splits[entry & ~kClvSplitBit].frontSlot, false);
-                visit(k, level.splits[entry & ~kClvSplitBit].backSlot, true);
-            } else {
-                visit(k, entry, false);
-            }
+            const CellSlots slots = slotsOfCell(level, entry);
+            for (uint i = 0; i < slots.count; ++i) visit(k, slots.first + i, int(i));
         }
     };
     const std::size_t kPiece = 512;
@@ -110,22 +105,19 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
             for (std::size_t s = piece * kPiece; s < std::min(level.slots.size(), (piece + 1) * kPiece); ++s) body(uint(s));
         });
     };
-    std::vector<uvec2> lower(level.slots.size(), uvec2(~0u));
+    std::vector<uvec4> lower(level.slots.size(), uvec4(~0u));
     forSlots([&](uint s) {
-        forNeighbours(level.slots[s], 0, 13, [&](int k, uint other, bool back) {
-            if (probe.occluded(inside[s], inside[other])) (back ? lower[s].y : lower[s].x) &= ~(1u << k);
+        // Neighbour 13 is the cell itself.
+        forNeighbours(level.slots[s], 0, 14, [&](int k, uint other, int ordinal) {
+            if (other != s && probe.occluded(inside[s], inside[other])) lower[s][ordinal] &= ~(1u << k);
         });
     });
     forSlots([&](uint s) {
         ClvSlot& slot = level.slots[s];
-        slot.visibleFront = lower[s].x, slot.visibleBack = lower[s].y;
-        const uint mine = level.table[slot.cell];
-        const bool isBack = (mine & kClvSplitBit) && level.splits[mine & ~kClvSplitBit].backSlot == s;
-        // The two sides of one cell never see each other.
-        if (mine & kClvSplitBit) (isBack ? slot.visibleFront : slot.visibleBack) &= ~(1u << 13);
-        forNeighbours(slot, 14, 27, [&](int k, uint other, bool back) {
-            const uint seen = isBack ? lower[other].y : lower[other].x;
-            if (!(seen >> (26 - k) & 1u)) (back ? slot.visibleBack : slot.visibleFront) &= ~(1u << k);
+        slot.visible = lower[s];
+        const uint mine = s - slotsOfCell(level, level.table[slot.cell]).first;
+        forNeighbours(slot, 14, 27, [&](int k, uint other, int ordinal) {
+            if (!(lower[other][int(mine)] >> (26 - k) & 1u)) slot.visible[ordinal] &= ~(1u << k);
         });
     });
     return level;

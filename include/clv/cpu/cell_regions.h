@@ -1,4 +1,4 @@
-// The open regions of a cell that geometry cuts: their volumes, centroids, and the plane that parts the two largest.
+// The open regions of a cell that geometry cuts: their volumes, centroids, and the planes that part them.
 //
 // The lines of a LineGrid are cut into intervals by their crossings with the scene. Intervals that share a lattice point belong
 // to one region. Lengths are exact along a line, so a wall that is square to an axis is measured exactly by that axis' lines;
@@ -6,8 +6,6 @@
 #ifndef CLV_CPU_CELL_REGIONS_H
 #define CLV_CPU_CELL_REGIONS_H
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <vector>
 
 #include "line_grid.h"
@@ -20,12 +18,16 @@ struct OpenRegion {
     vec3 inside{0.0f};     // a point of the region, near its centroid
 };
 
+// A node of the tree of planes that parts a cell. Children below 0 are regions: -1 - region.
+struct RegionSplit {
+    vec4 plane{0.0f};
+    int front = -1, back = -1;
+};
+
 struct CellRegions {
-    bool cut = false;            // a surface crosses the cell
-    int count = 0;               // 0: inside a solid; 1; or 2: parted by the plane
-    OpenRegion region[2];        // [0] in front of the plane, [1] behind it
-    vec3 planeNormal{0.0f};      // unit length
-    float planeOffset = 0.0f;    // m
+    bool cut = false;                     // a surface crosses the cell
+    std::vector<OpenRegion> regions;      // none inside a solid; at most kClvMostSlots
+    std::vector<RegionSplit> splits;      // none, or a tree with its root first
 };
 
 // Finds the regions of one cell after another; keeps its memory. One for each piece of work.
@@ -50,8 +52,7 @@ public:
             }
         }
         if (!out.cut) {
-            out.count = solidAround() ? 0 : 1;
-            out.region[0] = {h_ * h_ * h_, lowest_ + vec3(0.5f * h_), lowest_ + vec3(0.5f * h_)};
+            if (!solidAround()) out.regions.push_back({h_ * h_ * h_, lowest_ + vec3(0.5f * h_), lowest_ + vec3(0.5f * h_)});
             return out;
         }
         connect();
@@ -65,16 +66,54 @@ private:
         int parent;
         int axis, i, j;
         float begin, end;      // m from the cell's lowest corner along the axis
-        bool enclosed;         // both ways along the line the next surface shows its back
+        int below, above;      // what the next surface shows, down and up the line: 1 its front, -1 its back, 0 there is none
+        int fronts() const { return (below > 0) + (above > 0); }
+        int backs() const { return (below < 0) + (above < 0); }
     };
     struct Region {
-        float length[3] = {0, 0, 0};     // m, sum over intervals, an axis each
-        vec3 moment[3] = {vec3(0), vec3(0), vec3(0)};  // m^2
-        float enclosed = 0, total = 0;   // m
-        float volume = 0;
-        vec3 centroid{0.0f};
         int root = -1;
+        float length = 0, enclosed = 0;  // m, of all intervals, and of those between two backs
+        float volume = 0;                // m^3
+        float fronts = 0, backs = 0;     // m, of the intervals that see them
+        // How much of the region looks out on front faces. What lies behind the walls of a room sees backs only.
+        float openness() const { return fronts > 0.0f ? fronts / (fronts + backs) : 0.0f; }
+        float rank() const { return volume * openness() * openness() * openness(); }
     };
+    // A short piece of a line in one of the regions.
+    struct Sample {
+        vec3 position;   // m, from the cell's lowest corner
+        float volume;    // m^3, what it stands for
+        int region;
+    };
+    struct LineEnds {
+        int first, last;  // nodes
+    };
+    struct Surface {
+        vec3 normal, position;
+        int axis, below;  // the line's axis, and the node that ends here; the next node begins here
+    };
+    // Surface points that look to one side of a plane, and how many of them each region has.
+    struct FaceSum {
+        vec3 sum{0.0f};
+        int count = 0;
+        int of[kClvMostSlots] = {};
+        void add(int region, const vec3& p) {
+            if (region >= 0) sum += p, ++count, ++of[region];
+        }
+    };
+    struct Plane {
+        vec3 normal{0.0f};     // sum
+        FaceSum facing[2];     // to the front, to the back
+        int count = 0;
+    };
+
+    // Cosine between surfaces that count as one plane.
+    static constexpr float kSamePlane = 0.9f;
+    static constexpr std::size_t kMostPlanes = 4;
+    // Pieces into which an interval is cut to see on which side of a plane it lies.
+    static constexpr int kSteps = 4;
+    // Share of the impurity that a further plane must remove.
+    static constexpr float kLeastGain = 0.02f;
 
     // How far from a face of the cell a surface still counts as cutting it, in cells.
     static constexpr float kFaceMargin = 1e-3f;
@@ -115,18 +154,18 @@ private:
         for (auto hit = first;; ++hit) {
             const bool atEnd = hit == last;
             const float to = atEnd ? h_ : hit->distance - begin;
-            const bool backBelow = hit != hits.begin() && std::prev(hit)->front;
-            const bool backAbove = hit != hits.end() && !hit->front;
+            const int below = hit == hits.begin() ? 0 : std::prev(hit)->front ? -1 : 1;
+            const int above = hit == hits.end() ? 0 : hit->front ? 1 : -1;
             const int node = int(nodes_.size());
-            nodes_.push_back({node, axis, i, j, from, to, backBelow && backAbove});
+            nodes_.push_back({node, axis, i, j, from, to, below, above});
             for (; k < n_ && (atEnd || lines_.latticeOffset(axis, k) * h_ < to); ++k) nodeAt(axis, latticePoint(axis, k, i, j)) = node;
             if (atEnd) break;
             crossings_[axis]++;
-            vec3 position = lowest_;
+            vec3 position(0.0f);  // from the lowest corner
             position[axis] += to;
             position[(axis + 1) % 3] += h_ * lines_.latticeOffset((axis + 1) % 3, i);
             position[(axis + 2) % 3] += h_ * lines_.latticeOffset((axis + 2) % 3, j);
-            surfaces_.push_back({hit->normal, position});
+            surfaces_.push_back({hit->normal, position, axis, node});
             from = to;
         }
         ends.last = int(nodes_.size()) - 1;
@@ -134,7 +173,7 @@ private:
     }
 
     bool solidAround() const {
-        return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.enclosed; });
+        return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.backs() == 2; });
     }
 
     bool holdsLattice(const Node& node) const {
@@ -150,17 +189,23 @@ private:
             unite(nodeAt_[0][p], nodeAt_[1][p]);
             unite(nodeAt_[0][p], nodeAt_[2][p]);
         }
-        // A sliver at a face of the cell, too thin for a lattice point, belongs to what lies at the same end of the next line.
-        auto joinEnds = [&](int a, int b) {
-            if (!holdsLattice(nodes_[a]) || !holdsLattice(nodes_[b])) unite(a, b);
+        // A sliver at a face of the cell, too thin for a lattice point, belongs to what lies at the same end of the next line, if both
+        // end at the same side of a surface.
+        auto joinEnds = [&](int a, int b, bool low) {
+            const int faceA = low ? nodes_[a].above : nodes_[a].below, faceB = low ? nodes_[b].above : nodes_[b].below;
+            const bool bothCut = nodes_[a].end - nodes_[a].begin < h_ && nodes_[b].end - nodes_[b].begin < h_;
+            if (bothCut && faceA == faceB && (!holdsLattice(nodes_[a]) || !holdsLattice(nodes_[b]))) unite(a, b);
         };
         for (int axis = 0; axis < 3; ++axis) {
             const LineEnds* ends = ends_.data() + std::size_t(axis) * n_ * n_;
             for (int j = 0; j < n_; ++j) {
                 for (int i = 0; i < n_; ++i) {
                     const LineEnds& e = ends[i + n_ * j];
-                    if (i + 1 < n_) joinEnds(e.first, ends[i + 1 + n_ * j].first), joinEnds(e.last, ends[i + 1 + n_ * j].last);
-                    if (j + 1 < n_) joinEnds(e.first, ends[i + n_ * (j + 1)].first), joinEnds(e.last, ends[i + n_ * (j + 1)].last);
+                    for (const LineEnds* next : {i + 1 < n_ ? &ends[i + 1 + n_ * j] : nullptr, j + 1 < n_ ? &ends[i + n_ * (j + 1)] : nullptr}) {
+                        if (!next) continue;
+                        joinEnds(e.first, next->first, true);
+                        joinEnds(e.last, next->last, false);
+                    }
                 }
             }
         }
@@ -175,144 +220,190 @@ private:
     }
 
     void collect(CellRegions& out) {
+        float axisWeight[3], weights = 0.0f;
+        for (int axis = 0; axis < 3; ++axis) weights += axisWeight[axis] = float(crossings_[axis]) * float(crossings_[axis]);
+        const float perLine = h_ * h_ / float(n_ * n_);
+        for (float& w : axisWeight) w = weights > 0.0f ? w / weights * perLine : perLine / 3.0f;
+
         regions_.clear();
         regionOf_.assign(nodes_.size(), -1);
         for (int k = 0; k < int(nodes_.size()); ++k) {
-            int r = root(k);
+            const int r = root(k);
             if (regionOf_[r] < 0) {
                 regionOf_[r] = int(regions_.size());
-                regions_.emplace_back();
-                regions_.back().root = r;
+                regions_.push_back({r});
             }
             Region& region = regions_[regionOf_[r]];
             const Node& node = nodes_[k];
             const float length = node.end - node.begin;
-            region.length[node.axis] += length;
-            region.moment[node.axis] += midpoint(node) * length;
-            region.total += length;
-            if (node.enclosed) region.enclosed += length;
-        }
-        float axisWeight[3], weights = 0.0f;
-        for (int axis = 0; axis < 3; ++axis) weights += axisWeight[axis] = float(crossings_[axis]) * float(crossings_[axis]);
-        if (weights == 0.0f) {
-            for (float& w : axisWeight) w = 1.0f;
-            weights = 3.0f;
-        }
-        const float cellVolume = h_ * h_ * h_;
-        const float perLine = h_ * h_ / float(n_ * n_);
-        for (Region& region : regions_) {
-            float length = 0.0f, plainLength = 0.0f;
-            vec3 moment(0.0f), plainMoment(0.0f);
-            for (int axis = 0; axis < 3; ++axis) {
-                length += axisWeight[axis] / weights * region.length[axis];
-                moment += axisWeight[axis] / weights * region.moment[axis];
-                plainLength += region.length[axis];
-                plainMoment += region.moment[axis];
-            }
-            region.volume = length * perLine;
-            region.centroid = length > 0.0f ? moment / length : plainMoment / std::max(plainLength, 1e-30f);
+            region.length += length;
+            region.fronts += length * float(node.fronts());
+            region.backs += length * float(node.backs());
+            if (node.backs() == 2) region.enclosed += length;
+            region.volume += length * axisWeight[node.axis];
         }
         // The inside of a solid never holds light.
         std::erase_if(regions_, [&](const Region& r) {
-            return r.enclosed > kSolidShare * r.total || !(r.volume > kLeastShare * cellVolume);
+            return r.enclosed > kSolidShare * r.length || !(r.volume > kLeastShare * h_ * h_ * h_);
         });
-        std::sort(regions_.begin(), regions_.end(), [](const Region& a, const Region& b) {
-            float openA = a.volume * (1.0f - a.enclosed / a.total), openB = b.volume * (1.0f - b.enclosed / b.total);
-            return openA != openB ? openA > openB : a.root < b.root;
-        });
-        out.count = std::min<int>(int(regions_.size()), 2);
-        for (int r = 0; r < out.count; ++r) out.region[r] = {regions_[r].volume, lowest_ + regions_[r].centroid, pointInside(regions_[r])};
-        if (out.count == 2) part(out);
-    }
+        std::sort(regions_.begin(), regions_.end(),
+                  [](const Region& a, const Region& b) { return a.rank() != b.rank() ? a.rank() > b.rank() : a.root < b.root; });
+        if (regions_.size() > kClvMostSlots) regions_.resize(kClvMostSlots);
+        std::fill(regionOf_.begin(), regionOf_.end(), -1);
+        for (std::size_t r = 0; r < regions_.size(); ++r) regionOf_[regions_[r].root] = int(r);
+        for (int k = 0; k < int(nodes_.size()); ++k) regionOf_[k] = regionOf_[root(k)];
 
-    // The middle of the interval that is nearest to the centroid.
-    vec3 pointInside(const Region& region) {
-        float best = 1e30f;
-        vec3 point = region.centroid;
-        for (int k = 0; k < int(nodes_.size()); ++k) {
-            if (root(k) != region.root) continue;
-            vec3 m = midpoint(nodes_[k]);
-            float d = dot(m - region.centroid, m - region.centroid);
-            // Longer intervals keep the point away from surfaces.
-            d -= 0.25f * (nodes_[k].end - nodes_[k].begin) * (nodes_[k].end - nodes_[k].begin);
-            if (d < best) best = d, point = m;
-        }
-        return lowest_ + point;
-    }
-
-    // Fits the plane between two regions: its normal among the surfaces' mean direction and the line between the centroids, its
-    // offset where the least length of the regions lies on the wrong side. Not separable: the cell keeps one region.
-    void part(CellRegions& out) {
-        vec3 apart = out.region[0].centroid - out.region[1].centroid;
-        vec3 mean(0.0f);
-        for (const Surface& s : surfaces_) mean += s.normal * (dot(s.normal, apart) < 0.0f ? -1.0f : 1.0f);
-        float bestWrong = 2.0f;
-        const vec3 candidates[2] = {mean, apart};
-        for (const vec3& candidate : candidates) {
-            float length = glm::length(candidate);
-            if (!(length > 0.0f)) continue;
-            vec3 normal = candidate / length;
-            float offset, wrong = fitOffset(normal, offset);
-            if (wrong < bestWrong) {
-                bestWrong = wrong;
-                out.planeNormal = normal;
-                out.planeOffset = offset + dot(normal, lowest_);
-            }
-        }
-        // Two regions that a plane tells apart no better than this are one region around an obstacle.
-        if (bestWrong > 0.5f) {
-            float a = out.region[0].volume, b = out.region[1].volume;
-            out.region[0].centroid = (out.region[0].centroid * a + out.region[1].centroid * b) / (a + b);
-            out.region[0].volume = a + b;
-            out.count = 1;
-        }
-    }
-
-    // Offset along `normal` from the cell's lowest corner, and the larger of the two regions' shares on the wrong side.
-    float fitOffset(const vec3& normal, float& offset) {
         samples_.clear();
-        float total[2] = {0, 0};
         for (int k = 0; k < int(nodes_.size()); ++k) {
-            const int r = root(k);
-            const int side = r == regions_[0].root ? 0 : r == regions_[1].root ? 1 : -1;
-            if (side < 0) continue;
-            vec3 p = midpoint(nodes_[k]);
-            const float half = 0.5f * (nodes_[k].end - nodes_[k].begin);
-            // An interval counts at its two ends and in its middle.
-            for (float at : {-1.0f, 0.0f, 1.0f}) {
-                vec3 q = p;
-                q[nodes_[k].axis] += at * half;
-                samples_.push_back({dot(normal, q), 2.0f * half, side});
-                total[side] += 2.0f * half;
+            if (regionOf_[k] < 0) continue;
+            const Node& node = nodes_[k];
+            const float piece = (node.end - node.begin) / float(kSteps);
+            vec3 p = midpoint(node);
+            for (int step = 0; step < kSteps; ++step) {
+                p[node.axis] = node.begin + piece * (float(step) + 0.5f);
+                samples_.push_back({p, piece * axisWeight[node.axis], regionOf_[k]});
             }
         }
-        std::sort(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) {
-            return a.at != b.at ? a.at < b.at : a.side > b.side;  // the back region first where both touch the plane
-        });
-        // Sweeping upwards, everything below the plane should be region 1 and everything above region 0.
-        float below0 = 0.0f, below1 = 0.0f, best = 2.0f;
-        offset = samples_.empty() ? 0.0f : samples_.front().at;
-        for (std::size_t k = 0; k < samples_.size(); ++k) {
-            (samples_[k].side == 0 ? below0 : below1) += samples_[k].length;
-            const float wrong = std::max(below0 / std::max(total[0], 1e-30f), 1.0f - below1 / std::max(total[1], 1e-30f));
-            if (wrong < best) {
-                best = wrong;
-                offset = k + 1 < samples_.size() ? 0.5f * (samples_[k].at + samples_[k + 1].at) : samples_[k].at;
-            }
-        }
-        return best;
+        gatherPlanes();
+        partAlongSheets();
+        if (regions_.size() > 1) growTree(out, 0, samples_.size(), 0);
+        measure(out);
     }
 
-    struct LineEnds {
-        int first, last;  // nodes
+    // The surfaces that lie between open regions, or inside one, as planes: surfaces of about one direction make one plane, so the
+    // two faces of a thin wall give the plane in its middle.
+    void gatherPlanes() {
+        planes_.clear();
+        for (const Surface& s : surfaces_) {
+            const int below = regionOf_[s.below], above = regionOf_[s.below + 1];
+            if (below < 0 && above < 0) continue;
+            Plane* match = nullptr;
+            for (Plane& plane : planes_) {
+                if (std::abs(dot(glm::normalize(plane.normal), s.normal)) > kSamePlane) match = &plane;
+            }
+            if (!match) {
+                planes_.push_back({});
+                match = &planes_.back();
+                match->normal = s.normal;
+            } else {
+                match->normal += dot(match->normal, s.normal) < 0.0f ? -s.normal : s.normal;
+            }
+            const bool upwards = match->normal[s.axis] > 0.0f;  // along the axis means to the plane's front
+            match->facing[0].add(upwards ? above : below, s.position);
+            match->facing[1].add(upwards ? below : above, s.position);
+            match->count++;
+        }
+        std::stable_sort(planes_.begin(), planes_.end(), [](const Plane& a, const Plane& b) { return a.count > b.count; });
+        if (planes_.size() > kMostPlanes) planes_.resize(kMostPlanes);
+    }
+
+    // Offset half-way between the faces that look to the plane's front and those that look to its back.
+    vec4 planeEquation(const Plane& plane) const {
+        const vec3 normal = glm::normalize(plane.normal);
+        float offset = 0.0f;
+        int faces = 0;
+        for (const FaceSum& face : plane.facing) {
+            if (face.count > 0) offset += dot(normal, face.sum) / float(face.count), ++faces;
+        }
+        return vec4(normal, offset / float(std::max(faces, 1)));
+    }
+
+    // A sheet or a thin wall that ends inside the cell has one open region all around it: its two sides are told apart all the same,
+    // by the plane that goes on beyond the edge.
+    void partAlongSheets() {
+        for (const Plane& plane : planes_) {
+            if (regions_.size() >= kClvMostSlots) return;
+            for (int r = 0; r < int(regions_.size()); ++r) {
+                const int front = plane.facing[0].of[r], back = plane.facing[1].of[r];
+                if (4 * std::min(front, back) < plane.count) continue;
+                const vec4 equation = planeEquation(plane);
+                const int other = int(regions_.size());
+                for (Sample& s : samples_) {
+                    if (s.region == r && dot(vec3(equation), s.position) <= equation.w) s.region = other;
+                }
+                regions_.push_back(regions_[r]);
+                break;
+            }
+        }
+    }
+
+    // How mixed samples are, m^3: the volume times the chance that two of them belong to different regions.
+    struct Mixture {
+        float volume[kClvMostSlots] = {};
+        float impurity() const {
+            float sum = 0.0f, squares = 0.0f;
+            for (float v : volume) sum += v, squares += v * v;
+            return sum > 0.0f ? sum - squares / sum : 0.0f;
+        }
+        int largest() const { return int(std::max_element(volume, volume + kClvMostSlots) - volume); }
     };
-    struct Surface {
-        vec3 normal, position;
-    };
-    struct Sample {
-        float at, length;
-        int side;
-    };
+
+    // A decision tree over samples [first, last): each node takes the plane that leaves the two sides purest. Returns the child's index
+    // as RegionSplit has it.
+    int growTree(CellRegions& out, std::size_t first, std::size_t last, int depth) {
+        Mixture all;
+        for (std::size_t k = first; k < last; ++k) all.volume[samples_[k].region] += samples_[k].volume;
+        const float before = all.impurity();
+        int best = -1;
+        float least = before * (1.0f - kLeastGain);
+        if (depth < kClvMostSplits && before > 0.0f) {
+            for (int p = 0; p < int(planes_.size()); ++p) {
+                const vec4 equation = planeEquation(planes_[p]);
+                Mixture side[2];
+                for (std::size_t k = first; k < last; ++k) {
+                    const Sample& s = samples_[k];
+                    side[dot(vec3(equation), s.position) > equation.w ? 0 : 1].volume[s.region] += s.volume;
+                }
+                const float impurity = side[0].impurity() + side[1].impurity();
+                if (impurity < least) least = impurity, best = p;
+            }
+        }
+        if (best < 0) {
+            // Deposits go where the tree sends them: what is mixed here counts as the largest region.
+            const int region = all.largest();
+            for (std::size_t k = first; k < last; ++k) samples_[k].region = region;
+            return -1 - region;
+        }
+        const vec4 equation = planeEquation(planes_[best]);
+        const auto middle = std::stable_partition(samples_.begin() + first, samples_.begin() + last,
+                                                  [&](const Sample& s) { return dot(vec3(equation), s.position) > equation.w; });
+        const std::size_t half = std::size_t(middle - samples_.begin());
+        const std::size_t node = out.splits.size();
+        out.splits.push_back({vec4(vec3(equation), equation.w + dot(vec3(equation), lowest_)), 0, 0});
+        const int front = growTree(out, first, half, depth + 1);
+        const int back = growTree(out, half, last, depth + 1);
+        out.splits[node].front = front;
+        out.splits[node].back = back;
+        return int(node);
+    }
+
+    // Volume, centroid and inner point of each region, by the samples that the tree sends to it. Regions that got none are dropped.
+    void measure(CellRegions& out) {
+        int renumber[kClvMostSlots];
+        for (int r = 0; r < int(regions_.size()); ++r) {
+            OpenRegion region;
+            vec3 moment(0.0f);
+            for (const Sample& s : samples_) {
+                if (s.region == r) region.volume += s.volume, moment += s.position * s.volume;
+            }
+            renumber[r] = int(out.regions.size());
+            if (!(region.volume > 0.0f)) continue;
+            region.centroid = moment / region.volume;
+            float nearest = 1e30f;
+            for (const Sample& s : samples_) {
+                const vec3 d = s.position - region.centroid;
+                if (s.region == r && dot(d, d) < nearest) nearest = dot(d, d), region.inside = s.position;
+            }
+            region.centroid += lowest_;
+            region.inside += lowest_;
+            out.regions.push_back(region);
+        }
+        for (RegionSplit& split : out.splits) {
+            if (split.front < 0) split.front = -1 - renumber[-1 - split.front];
+            if (split.back < 0) split.back = -1 - renumber[-1 - split.back];
+        }
+        if (out.regions.size() < 2) out.splits.clear();
+    }
 
     const ClvVolume& volume_;
     const LineGrid& lines_;
@@ -326,8 +417,9 @@ private:
     std::vector<Surface> surfaces_;
     std::vector<int> nodeAt_[3];
     std::vector<Region> regions_;
-    std::vector<int> regionOf_;
+    std::vector<int> regionOf_;  // a node each, -1: none that is kept
     std::vector<Sample> samples_;
+    std::vector<Plane> planes_;
 };
 
 }  // namespace clv

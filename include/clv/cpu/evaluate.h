@@ -18,7 +18,7 @@ struct LookupOptions {
 
 // The slots that a receiver reads. E = sum of weight[i] * (record of slot[i], read for the normal).
 struct SlotWeights {
-    static constexpr int kCapacity = 54;  // 27 cells, two slots each
+    static constexpr int kCapacity = 27 * int(kClvMostSlots);
     int count = 0;
     std::array<uint, kCapacity> slot;
     std::array<float, kCapacity> weight;  // 1/m^3
@@ -29,13 +29,12 @@ namespace detail {
 // The slot of a cell that holds `position`, or kClvNoSlot.
 inline uint slotAt(const Level& level, const ivec3& cell, const vec3& position) {
     if (!clvCellInside(level.volume, cell)) return kClvNoSlot;
-    const uint entry = level.table[clvCellIndex(level.volume, cell)];
-    if (entry == kClvNoSlot || !(entry & kClvSplitBit)) return entry;
-    return clvSlotFromSplit(level.splits[entry & ~kClvSplitBit], position);
+    return slotAtPosition(level, level.table[clvCellIndex(level.volume, cell)], position);
 }
 
-inline bool sees(const ClvSlot& slot, const ivec3& step, bool back) {
-    return ((back ? slot.visibleBack : slot.visibleFront) & clvNeighbourBit(step)) != 0u;
+// Whether a slot sees slot `ordinal` of the neighbour at `step`.
+inline bool sees(const ClvSlot& slot, const ivec3& step, uint ordinal) {
+    return (slot.visible[int(ordinal)] & clvNeighbourBit(step)) != 0u;
 }
 
 }  // namespace detail
@@ -60,9 +59,11 @@ inline Hub findHub(const Level& level, const ClvReceiver& receiver, const Lookup
     const uint ownSlot = detail::slotAt(level, ownCell, side);
     if (ownSlot == kClvNoSlot) return {aheadCell, aheadSlot, ahead};
     if (aheadSlot != kClvNoSlot) {
-        const uint entry = level.table[clvCellIndex(v, aheadCell)];
-        const bool back = (entry & kClvSplitBit) && level.splits[entry & ~kClvSplitBit].backSlot == aheadSlot;
-        if (detail::sees(level.slots[ownSlot], aheadCell - ownCell, back)) return {aheadCell, aheadSlot, ahead};
+        // A sliver of open space in front of the surface may have no slot of its own: what the cell has then lies behind the receiver.
+        const bool ownBehind = clvInFront(receiver, level.slots[ownSlot].centroid) == 0;
+        if (ownBehind && clvInFront(receiver, level.slots[aheadSlot].centroid) == 1) return {aheadCell, aheadSlot, ahead};
+        const uint ordinal = aheadSlot - slotsOfCell(level, level.table[clvCellIndex(v, aheadCell)]).first;
+        if (detail::sees(level.slots[ownSlot], aheadCell - ownCell, ordinal)) return {aheadCell, aheadSlot, ahead};
     }
     return {ownCell, ownSlot, receiver.position + receiver.normal * (kClvHomeOffset * h)};
 }
@@ -106,16 +107,10 @@ inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const
                 if (entry == kClvNoSlot) continue;
                 const float weight = clvLookupWeight(options.lookup, vec3(step) - fromCenter);
                 if (!(weight > 0.0f)) continue;
-                auto inSight = [&](bool back) {
-                    return !options.visibility || hub.slot == kClvNoSlot || detail::sees(level.slots[hub.slot], step, back);
-                };
-                if (entry & kClvSplitBit) {
-                    const ClvSplit& split = level.splits[entry & ~kClvSplitBit];
-                    const bool isHub = step == ivec3(0) && options.visibility;
-                    if (isHub ? hub.slot == split.frontSlot : inSight(false)) add(split.frontSlot, weight);
-                    if (isHub ? hub.slot == split.backSlot : inSight(true)) add(split.backSlot, weight);
-                } else if (inSight(false)) {
-                    add(entry, weight);
+                const CellSlots slots = slotsOfCell(level, entry);
+                for (uint i = 0; i < slots.count; ++i) {
+                    const bool inSight = !options.visibility || hub.slot == kClvNoSlot || detail::sees(level.slots[hub.slot], step, i);
+                    if (inSight) add(slots.first + i, weight);
                 }
             }
         }

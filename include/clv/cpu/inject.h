@@ -67,7 +67,7 @@ inline void depositCrossings(const Level& level, std::span<const ClvRay> rays, c
         const uint lane = buffer.lane[k];
         if (slot & kClvSplitBit) [[unlikely]] {
             const ClvRay& ray = rays[lane];
-            slot = clvSlotFromSplit(level.splits[slot & ~kClvSplitBit], ray.origin + ray.direction * buffer.middle[k]);
+            slot = slotAtPosition(level, slot, ray.origin + ray.direction * buffer.middle[k]);
         }
         const float weight = buffer.weight[k];
         float* __restrict record = deposits + std::size_t(slot) * Stride;

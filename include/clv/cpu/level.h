@@ -22,6 +22,26 @@ struct Level {
     }
 };
 
+struct CellSlots {
+    uint first, count;
+};
+
+// The slots of a cell whose table entry is not kClvNoSlot.
+inline CellSlots slotsOfCell(const Level& level, uint entry) {
+    if (!(entry & kClvSplitBit)) return {entry, 1};
+    const ClvSplit& root = level.splits[entry & ~kClvSplitBit];
+    return {root.firstSlot, root.slotCount};
+}
+
+// The slot that holds a position in the cell with this table entry; kClvNoSlot stays kClvNoSlot.
+inline uint slotAtPosition(const Level& level, uint entry, const vec3& position) {
+    while (entry != kClvNoSlot && (entry & kClvSplitBit)) {
+        const ClvSplit& split = level.splits[entry & ~kClvSplitBit];
+        entry = clvInFrontOfSplit(split, position) == 1 ? split.front : split.back;
+    }
+    return entry;
+}
+
 // One record a slot: coefficient k of channel c at index k * channels + c, padded to whole vectors of 8 floats.
 struct DepositLayout {
     uint storage = kClvStorageCube9;
@@ -42,8 +62,8 @@ inline ClvVolume volumeOverBounds(const vec3& lo, const vec3& hi, int n, uint st
     ClvVolume volume{};
     volume.cellSize = float(std::cbrt(double(extent.x) * extent.y * extent.z) / n);
     volume.storage = storage;
-    // A thousandth of a cell of air around the bounds keeps surfaces on the rim inside.
-    const float rim = 1e-3f;
+    // Air around the bounds, in cells, so that surfaces on the rim have open space in front of them too.
+    const float rim = 0.5f;
     for (int axis = 0; axis < 3; ++axis) {
         volume.origin[axis] = lo[axis] - volume.cellSize * (rim + shift[axis]);
         volume.resolution[axis] = int(std::ceil(extent[axis] / volume.cellSize + 2 * rim + shift[axis]));

@@ -1,7 +1,7 @@
 // A level of a light volume: a regular grid of cubic cells, and what lies in each cell.
 //
 // A cell owns *slots*. A slot is one open region with one record of deposits. Most cells have one slot, which is the whole cell;
-// a cell that a thin wall or a drape cuts has two, so that the light of the two sides never mixes; a cell that nothing reads,
+// a cell that a thin wall or a drape cuts has one for each side, so that their light never mixes; a cell that nothing reads,
 // or that lies inside a solid, has none.
 #ifndef CLV_DATA_LIGHT_VOLUME_H
 #define CLV_DATA_LIGHT_VOLUME_H
@@ -21,22 +21,26 @@ struct ClvVolume {     // 48 bytes
 CLV_CONST uint kClvNoSlot = 0xffffffffu;
 CLV_CONST uint kClvSplitBit = 0x80000000u;
 
-struct ClvSplit {      // 32 bytes: the plane that parts a cell's two slots
-    vec3 normal;       // unit length
-    float offset;      // m: dot(normal, position) - offset > 0 on the front side
-    uint frontSlot;
-    uint backSlot;
-    uint pad0;
-    uint pad1;
+// Parts a cell by a plane. Each side is a slot, or a further split: a cell in which three rooms meet is a small tree of planes.
+struct ClvSplit {      // 32 bytes
+    vec4 plane;        // unit normal and offset, m: dot(normal, position) > offset in front
+    uint front;        // a slot, or a split with kClvSplitBit set
+    uint back;
+    uint firstSlot;    // the cell's slots are neighbours in memory; set in the first split of a cell
+    uint slotCount;    // [1, kClvMostSlots]
 };
 
-struct ClvSlot {       // 32 bytes
+CLV_CONST uint kClvMostSlots = 4u;   // a cell
+CLV_CONST int kClvMostSplits = 4;    // on the way from a cell to a slot
+
+struct ClvSlot {       // 48 bytes
     vec3 centroid;     // m, relative to the anchor: centroid of the open region
     float openVolume;  // m^3, > 0
-    uint visibleFront; // bit k: the first slot (the front one of a split) of neighbour k is in sight; k = (x+1) + 3 (y+1) + 9 (z+1)
-    uint visibleBack;  // the same for the back slot of a neighbour that is split
+    uvec4 visible;     // bit k of component i: slot i of neighbour k is in sight; k = (x+1) + 3 (y+1) + 9 (z+1)
     uint cell;         // index into the cell table
     uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 // Cell that holds a position, as coordinates that may lie outside the volume.
@@ -82,6 +86,10 @@ CLV_FN ivec3 clvCellFromIndex(ClvVolume volume, uint index) {
     int y = (i / volume.resolution.x) % volume.resolution.y - volume.scroll.y;
     int z = i / (volume.resolution.x * volume.resolution.y) - volume.scroll.z;
     return ivec3(x < 0 ? x + volume.resolution.x : x, y < 0 ? y + volume.resolution.y : y, z < 0 ? z + volume.resolution.z : z);
+}
+
+CLV_FN int clvInFrontOfSplit(ClvSplit split, vec3 position) {
+    return split.plane.x * position.x + split.plane.y * position.y + split.plane.z * position.z > split.plane.w ? 1 : 0;
 }
 
 CLV_NAMESPACE_END

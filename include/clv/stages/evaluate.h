@@ -51,7 +51,7 @@ CLV_FN int clvInFront(ClvReceiver receiver, vec3 centroid) {
     return dot(centroid - receiver.position, receiver.normal) > 0.0f ? 1 : 0;
 }
 
-// Bit of a neighbour in ClvSlot::visibleFront and visibleBack; each coordinate of `step` in [-1, 1].
+// Bit of a neighbour in ClvSlot::visible; each coordinate of `step` in [-1, 1].
 CLV_FN uint clvNeighbourBit(ivec3 step) { return 1u << uint((step.x + 1) + 3 * (step.y + 1) + 9 * (step.z + 1)); }
 
 // Weighted moments of the slots that a lookup uses; x is the centroid relative to the receiver, in cells.

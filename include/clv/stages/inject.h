@@ -115,10 +115,5 @@ CLV_FN float clvCrossingWeight(uint rule, ClvCrossing crossing, float cellSize) 
     return (crossing.tEnd - crossing.tBegin) * cellSize;
 }
 
-// Which slot of a split cell holds a position.
-CLV_FN uint clvSlotFromSplit(ClvSplit split, vec3 position) {
-    return dot(split.normal, position) > split.offset ? split.frontSlot : split.backSlot;
-}
-
 CLV_NAMESPACE_END
 #endif
