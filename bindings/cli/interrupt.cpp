@@ -56,9 +56,9 @@ void cleanUpOnInterrupt() {
     }).detach();
 }
 
-void guardFolder(const std::filesystem::path& folder) {
+std::filesystem::path guardFolder(const std::function<std::filesystem::path()>& make) {
     std::scoped_lock lock(guarded().mutex);
-    guarded().folders.push_back(folder);
+    return guarded().folders.emplace_back(make());
 }
 
 void unguardFolder(const std::filesystem::path& folder) {

@@ -9,8 +9,9 @@ namespace clv {
 // off) remove the guarded folders and then end the process by that same signal.
 void cleanUpOnInterrupt();
 
-// Folders to remove on an interrupt.
-void guardFolder(const std::filesystem::path& folder);
+// Makes a folder that is removed on an interrupt; one that comes while `make` runs waits until the folder is known.
+std::filesystem::path guardFolder(const std::function<std::filesystem::path()>& make);
+// To be called once the folder is gone.
 void unguardFolder(const std::filesystem::path& folder);
 
 // Runs `action` so that an interrupt waits for its end.

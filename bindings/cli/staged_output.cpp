@@ -20,11 +20,12 @@ fs::path folderOf(const fs::path& file) {
 }  // namespace
 
 StagedOutput::StagedOutput(const fs::path& folder) : folder_(folder) {
-    std::string pattern = (folder / ".clv-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-        throw InputError(fmt::format("{}: expected a folder that can be written: {}", folder.string(), std::strerror(errno)));
-    hidden_ = pattern;
-    guardFolder(hidden_);
+    hidden_ = guardFolder([&] {
+        std::string pattern = (folder / ".clv-XXXXXX").string();
+        if (!mkdtemp(pattern.data()))
+            throw InputError(fmt::format("{}: expected a folder that can be written: {}", folder.string(), std::strerror(errno)));
+        return fs::path(pattern);
+    });
 }
 
 StagedOutput::~StagedOutput() {
