@@ -58,6 +58,32 @@ TEST(HeatMap, barRunsFromTheTopColorDownToBlack) {
     EXPECT_GT(previousRow, height / 2);
 }
 
+// Whether `text` stands at (x, y), ink and gaps.
+bool reads(const Image& image, int x, int y, const std::string& text) {
+    Image expected(textWidth(text, 1), kGlyphHeight);
+    drawText(expected, 0, 0, 1, text, glm::vec3(1.0f));
+    for (int row = 0; row < expected.height; ++row)
+        for (int column = 0; column < expected.width; ++column)
+            if (image.at(x + column, y + row) != expected.at(column, row)) return false;
+    return true;
+}
+
+TEST(HeatMap, numbersOnTheBarRiseFromZeroToTheTop) {
+    const int width = 160, height = 120;
+    const Image map = heatMap(std::vector<float>(std::size_t(width * height), 0.0f), width, height, 0.2);
+    // Found from below upwards, each in the same column of the picture.
+    int found = 0, previous = height;
+    for (const std::string text : {"0%", "5%", "10%", "15%", "20%"})
+        for (int y = previous - kGlyphHeight - 1; y >= 0; --y)
+            if (reads(map, map.width - kGlyphWidth - textWidth("20%", 1), y, text)) {
+                ++found;
+                previous = y;
+                break;
+            }
+    EXPECT_EQ(found, 5);
+    EXPECT_LT(previous, kGlyphHeight);
+}
+
 TEST(BitmapFont, everyCharacterOfANumberHasItsOwnShape) {
     std::vector<std::vector<glm::vec3>> shapes;
     for (char character : std::string("0123456789.%")) {
