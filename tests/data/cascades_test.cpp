@@ -317,9 +317,16 @@ TEST(CascadeValidation, saysWhatIsWrongWithTheCamera) {
 TEST(CascadeValidation, saysWhatIsWrongWithTheCascades) {
     EXPECT_EQ(validate(CascadeDesc{.count = 0}), "cascades: count must lie in [1, 8], not 0");
     EXPECT_EQ(validate(CascadeDesc{.count = 9}), "cascades: count must lie in [1, 8], not 9");
-    EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(6)}), "cascades: resolution must exceed 2 * marginCells + 2");
-    EXPECT_EQ(validate(CascadeDesc{.finestCellSize = 0.0}), "cascades: finestCellSize must be above 0 m");
-    EXPECT_EQ(validate(CascadeDesc{.growth = 0.5}), "cascades: growth must be at least 1");
+    EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(7)}), "cascades: resolution must exceed 2 * marginCells + 3");
+    EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(8)}), "");
+    EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(32, 1000000, 32)}), "cascades: resolution must be at most 1024");
+    for (double bad : {0.0, -1.0, 1e-60, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_EQ(validate(CascadeDesc{.finestCellSize = bad}), "cascades: finestCellSize must be above 0 m");
+    }
+    for (double bad : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_EQ(validate(CascadeDesc{.growth = bad}), "cascades: growth must be at least 1");
+    }
+    EXPECT_EQ(validate(CascadeDesc{.growth = 1e200}), "cascades: the coarsest cells are larger than the longest ray");
     EXPECT_EQ(validate(CascadeDesc{.marginCells = -1}), "cascades: marginCells must not be negative");
 }
 

@@ -22,11 +22,11 @@ enum class CascadeFit {
 };
 
 struct CascadeDesc {
-    int count = 4;                // [1, kClvMaxCascades]
-    ivec3 resolution{32};         // cells an axis of every cascade, > 2 * marginCells + 2
-    double finestCellSize = 0.25; // m, > 0
-    double growth = 2.0;          // >= 1: cell size over that of the next finer cascade
-    int marginCells = 2;          // >= 0: cells at each side that no surface in view needs
+    int count = 4;                 // [1, kClvMaxCascades]
+    ivec3 resolution{32};          // cells an axis of every cascade, > 2 * marginCells + 3, <= 1024
+    double finestCellSize = 0.25;  // m, > 0
+    double growth = 2.0;           // >= 1: cell size over that of the next finer cascade
+    int marginCells = 2;           // >= 0: cells at each side that no surface in view needs
     CascadeFit fit = CascadeFit::camera;
 };
 
@@ -52,16 +52,29 @@ struct CellRange {
 // Beyond this many cells from the origin a double no longer tells cells apart.
 inline constexpr double kMaxLatticeCoordinate = 4503599627370496.0;  // 2^52
 
+// Cells an axis, so that the index of a cell fits an int.
+inline constexpr int kMaxCascadeResolution = 1024;
+
+// Cell size (m) of a cascade; level 0 is the finest.
+inline double cascadeCellSize(const CascadeDesc& desc, int level) {
+    return desc.finestCellSize * std::pow(desc.growth, level);
+}
+
 // What is wrong with the description, in words; empty if nothing is.
 inline std::string validate(const CascadeDesc& desc) {
     if (desc.count < 1 || desc.count > int(kClvMaxCascades)) {
         return "cascades: count must lie in [1, " + std::to_string(kClvMaxCascades) + "], not " + std::to_string(desc.count);
     }
-    if (!std::isfinite(desc.finestCellSize) || desc.finestCellSize <= 0.0) return "cascades: finestCellSize must be above 0 m";
-    if (!std::isfinite(desc.growth) || desc.growth < 1.0) return "cascades: growth must be at least 1";
+    // As floats, which is what the core computes with.
+    if (!(float(desc.finestCellSize) > 0.0f)) return "cascades: finestCellSize must be above 0 m";
+    if (!(desc.growth >= 1.0)) return "cascades: growth must be at least 1";
+    if (!(cascadeCellSize(desc, desc.count - 1) < kClvFar)) return "cascades: the coarsest cells are larger than the longest ray";
     if (desc.marginCells < 0) return "cascades: marginCells must not be negative";
     for (int axis = 0; axis < 3; ++axis) {
-        if (desc.resolution[axis] / 2 <= desc.marginCells + 1) return "cascades: resolution must exceed 2 * marginCells + 2";
+        if (desc.resolution[axis] / 2 - 1 <= desc.marginCells) return "cascades: resolution must exceed 2 * marginCells + 3";
+        if (desc.resolution[axis] > kMaxCascadeResolution) {
+            return "cascades: resolution must be at most " + std::to_string(kMaxCascadeResolution);
+        }
     }
     return {};
 }
@@ -79,10 +92,6 @@ inline std::string validate(const CascadeDesc& desc, const CameraView& view) {
     if (!(view.yfov > 0.0 && view.yfov < double(kClvPi))) return "camera: yfov must lie in (0, pi)";
     if (!(view.aspect > 0.0) || !std::isfinite(view.aspect)) return "camera: aspect must be above 0";
     return {};
-}
-
-inline double cascadeCellSize(const CascadeDesc& desc, int level) {
-    return desc.finestCellSize * std::pow(desc.growth, level);
 }
 
 // Radius (m) of the largest sphere that a cascade holds inside its margin wherever it snaps to: snapping moves it by half a cell.
