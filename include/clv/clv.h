@@ -1,5 +1,6 @@
 // Convergent light volumes: real-time indirect diffuse light, after Bratten and Linden (2013).
-// The umbrella header: the version and everything that shaders and C++ share. Read conventions.h next.
+// The umbrella header for C++: the version and the whole library. Read conventions.h next. A shader includes the stage that it
+// runs.
 //
 // The way of the light through the stages:
 //   rsm       light, scene       -> ClvRsmTexel[]   lit surface samples
@@ -8,7 +9,7 @@
 //   inject    ClvRay             -> deposits        into the cells that it crosses
 //   merge     deposits, history  -> history
 //   evaluate  position, normal   -> irradiance
-// cpu/ runs them as loops (include its headers one by one); plan/ decides what a scene needs.
+// plan/ decides what a scene needs, cpu/ runs the stages as loops.
 #ifndef CLV_CLV_H
 #define CLV_CLV_H
 

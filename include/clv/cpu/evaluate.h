@@ -60,8 +60,8 @@ inline Hub findHub(const Level& level, const ClvReceiver& receiver, const Lookup
     if (ownSlot == kClvNoSlot) return {aheadCell, aheadSlot, ahead};
     if (aheadSlot != kClvNoSlot) {
         // A sliver of open space in front of the surface may have no slot of its own: what the cell has then lies behind the receiver.
-        const bool ownBehind = clvInFront(receiver, level.slots[ownSlot].centroid) == 0;
-        if (ownBehind && clvInFront(receiver, level.slots[aheadSlot].centroid) == 1) return {aheadCell, aheadSlot, ahead};
+        const bool ownBehind = clvInFront(receiver, level.slots[ownSlot].openCentroid) == 0;
+        if (ownBehind && clvInFront(receiver, level.slots[aheadSlot].openCentroid) == 1) return {aheadCell, aheadSlot, ahead};
         const uint ordinal = aheadSlot - slotsOfCell(level, level.table[clvCellIndex(v, aheadCell)]).first;
         if (detail::sees(level.slots[ownSlot], aheadCell - ownCell, ordinal)) return {aheadCell, aheadSlot, ahead};
     }
@@ -90,11 +90,11 @@ inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const
     ClvFit fit = clvFitBegin();
     auto add = [&](uint slot, float weight) {
         const ClvSlot& s = level.slots[slot];
-        if (options.planeCulling && clvInFront(receiver, s.centroid) == 0) return;
+        if (options.planeCulling && clvInFront(receiver, s.openCentroid) == 0) return;
         const int i = out.count++;
         out.slot[i] = slot;
         out.weight[i] = weight;
-        x[i] = (s.centroid - receiver.position) * inverseCell;
+        x[i] = (s.openCentroid - receiver.position) * inverseCell;
         clvFitAdd(fit, weight * s.openVolume, x[i]);
     };
     for (int dz = lo.z; dz <= hi.z; ++dz) {

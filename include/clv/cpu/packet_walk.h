@@ -37,14 +37,14 @@ void walkPacketPortable(const Level& level, uint rule, std::span<const ClvRay> r
     const float h = level.volume.cellSize;
     for (int i = 0; i < lanes; ++i) {
         walks[i] = clvWalkBegin(level.volume, rays[i]);
-        active += walks[i].active;
+        active += walks[i].running;
     }
     while (active > 0) {
         active = 0;
         for (int i = 0; i < lanes; ++i) {
-            if (walks[i].active == 0) continue;
+            if (walks[i].running == 0) continue;
             ClvCrossing crossing = clvWalkStep(walks[i], rays[i].direction);
-            active += walks[i].active;
+            active += walks[i].running;
             const uint entry = level.table[clvCellIndex(level.volume, crossing.cell)];
             const float weight = clvCrossingWeight(rule, crossing, h);
             if (entry == kClvNoSlot || !(weight > 0.0f)) continue;

@@ -34,7 +34,7 @@ CLV_CONST uint kClvMostSlots = 4u;   // a cell
 CLV_CONST int kClvMostSplits = 4;    // on the way from a cell to a slot
 
 struct ClvSlot {       // 48 bytes
-    vec3 centroid;     // m, relative to the anchor: centroid of the open region
+    vec3 openCentroid; // m, relative to the anchor: centroid of the open region
     float openVolume;  // m^3, > 0
     uvec4 visible;     // bit k of component i: slot i of neighbour k is in sight; k = (x+1) + 3 (y+1) + 9 (z+1)
     uint cell;         // index into the cell table

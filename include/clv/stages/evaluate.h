@@ -47,8 +47,8 @@ CLV_FN float clvLookupWeight(uint lookup, vec3 offset) {
 }
 
 // Plane culling: a region whose centroid lies behind the receiver's plane cannot light it.
-CLV_FN int clvInFront(ClvReceiver receiver, vec3 centroid) {
-    return dot(centroid - receiver.position, receiver.normal) > 0.0f ? 1 : 0;
+CLV_FN int clvInFront(ClvReceiver receiver, vec3 openCentroid) {
+    return dot(openCentroid - receiver.position, receiver.normal) > 0.0f ? 1 : 0;
 }
 
 // Bit of a neighbour in ClvSlot::visible; each coordinate of `step` in [-1, 1].

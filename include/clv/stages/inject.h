@@ -30,7 +30,7 @@ struct ClvWalk {
     vec3 boundary;   // coordinate of the next boundary, an axis each
     float first;     // 1 in the cell that holds the ray's start, else 0
     ivec3 cell;
-    int active;      // 0: the walk is over
+    int running;     // 0: the walk is over
 };
 
 struct ClvCrossing {
@@ -76,11 +76,11 @@ CLV_FN ClvWalk clvWalkBegin(ClvVolume volume, ClvRay ray) {
     walk.boundary = vec3(clvWalkFirstBoundary(ray.direction.x, walk.cell.x), clvWalkFirstBoundary(ray.direction.y, walk.cell.y),
                          clvWalkFirstBoundary(ray.direction.z, walk.cell.z));
     walk.first = tBegin == 0.0f ? 1.0f : 0.0f;
-    walk.active = walk.tEnd > tBegin ? 1 : 0;
+    walk.running = walk.tEnd > tBegin ? 1 : 0;
     return walk;
 }
 
-// The current cell's crossing; then moves on to the next cell. Call it while walk.active is 1.
+// The current cell's crossing; then moves on to the next cell. Call it while walk.running is 1.
 CLV_FN ClvCrossing clvWalkStep(CLV_INOUT(ClvWalk) walk, vec3 direction) {
     vec3 next = (walk.boundary - walk.origin) * walk.inverse;
     float nearest = min(min(next.x, next.y), next.z);
@@ -93,7 +93,7 @@ CLV_FN ClvCrossing clvWalkStep(CLV_INOUT(ClvWalk) walk, vec3 direction) {
     walk.first = 0.0f;
     walk.t = crossing.tEnd;
     if (nearest >= walk.tEnd) {
-        walk.active = 0;
+        walk.running = 0;
         return crossing;
     }
     if (next.x == nearest) {
