@@ -39,8 +39,7 @@ inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const 
     level.volume = volume;
     level.table.assign(cells, kClvNoSlot);
 
-    const int longest = std::max(std::max(size.x, size.y), size.z);
-    const int perCell = options.linesPerCell > 0 ? options.linesPerCell : std::clamp(320 / longest, 3, 8);
+    const int perCell = options.linesPerCell > 0 ? options.linesPerCell : std::clamp(int(256 / std::cbrt(double(cells))), 3, 8);
     std::vector<std::vector<std::pair<uint, CellRegions>>> slabs(size.z);
     if (options.findRegions) {
         LineGrid lines(volume, {ivec3(0), size}, perCell, needed, probe, parallelFor);

@@ -112,6 +112,8 @@ private:
     static constexpr std::size_t kMostPlanes = 4;
     // Pieces into which an interval is cut to see on which side of a plane it lies.
     static constexpr int kSteps = 4;
+    // Share of a plane's surface that a region must meet, and of the region that must lie on either side, for it to be parted there.
+    static constexpr float kEdgeShare = 0.05f;
     // Share of the impurity that a further plane must remove.
     static constexpr float kLeastGain = 0.02f;
 
@@ -265,7 +267,7 @@ private:
             }
         }
         gatherPlanes();
-        partAlongSheets();
+        partAroundEdges();
         if (regions_.size() > 1) growTree(out, 0, samples_.size(), 0);
         measure(out);
     }
@@ -308,21 +310,24 @@ private:
         return vec4(normal, offset / float(std::max(faces, 1)));
     }
 
-    // A sheet or a thin wall that ends inside the cell has one open region all around it: its two sides are told apart all the same,
-    // by the plane that goes on beyond the edge.
-    void partAlongSheets() {
+    // A region that reaches around an edge, be it of a sheet, of a thin wall or of a block, is parted by the planes of the surfaces that it
+    // meets there: light behind a surface's plane cannot reach the surface.
+    void partAroundEdges() {
         for (const Plane& plane : planes_) {
-            if (regions_.size() >= kClvMostSlots) return;
-            for (int r = 0; r < int(regions_.size()); ++r) {
-                const int front = plane.facing[0].of[r], back = plane.facing[1].of[r];
-                if (4 * std::min(front, back) < plane.count) continue;
-                const vec4 equation = planeEquation(plane);
+            const vec4 equation = planeEquation(plane);
+            const int count = int(regions_.size());
+            for (int r = 0; r < count && regions_.size() < kClvMostSlots; ++r) {
+                if (kEdgeShare * float(plane.count) > float(plane.facing[0].of[r] + plane.facing[1].of[r])) continue;
+                float front = 0.0f, back = 0.0f;
+                for (const Sample& s : samples_) {
+                    if (s.region == r) (dot(vec3(equation), s.position) > equation.w ? front : back) += s.volume;
+                }
+                if (std::min(front, back) < kEdgeShare * (front + back)) continue;
                 const int other = int(regions_.size());
                 for (Sample& s : samples_) {
                     if (s.region == r && dot(vec3(equation), s.position) <= equation.w) s.region = other;
                 }
                 regions_.push_back(regions_[r]);
-                break;
             }
         }
     }
