@@ -124,8 +124,10 @@ TEST(Rsm, spotLightSendsTheFluxOfItsFalloff) {
     }
 }
 
-TEST(Rsm, spotRaysStayInsideTheOuterCone) {
+TEST(Rsm, spotRaysFillTheOuterConeAndNoMore) {
     const ClvLight light = makeLight(kClvLightSpot);
+    // The map's edge is the cone's.
+    EXPECT_NEAR(dot(clvLightRay(light, vec2(0.0f, 0.5f), kLo, kHi).direction, light.direction), std::cos(light.outerConeAngle), 1e-6f);
     for (uint i = 0; i < 1000; ++i) {
         const ClvRay ray = clvLightRay(light, vec2(randomUnit(16, 2 * i), randomUnit(16, 2 * i + 1)), kLo, kHi);
         EXPECT_GE(dot(ray.direction, light.direction), std::cos(light.outerConeAngle) - 1e-6f);
