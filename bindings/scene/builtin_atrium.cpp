@@ -88,8 +88,8 @@ void addArches(SceneBuilder& builder, const RowFrame& frame, double length, int 
 
 // A round column from the floor up to the springing: foot, shaft, and a capital with a top that juts out.
 void addColumn(SceneBuilder& builder, const glm::dvec3& foot, std::uint32_t material) {
-    const glm::dvec2 profile[] = {{0.38, 0.0}, {0.38, 0.3}, {0.27, 0.42}, {0.23, kSpringing - 0.5}, {0.4, kSpringing - 0.15},
-                                  {0.4, kSpringing}, {0.0, kSpringing}};  // radius, height
+    const glm::dvec2 profile[] = {{0.38, 0.0}, {0.38, 0.3}, {0.27, 0.42}, {0.2, kSpringing - 0.5}, {kPier, kSpringing - 0.15},
+                                  {kPier, kSpringing}, {0.0, kSpringing}};  // radius, height
     auto at = [&](const glm::dvec2& ring, int side) {
         const double angle = glm::two_pi<double>() * (side % kColumnSides) / kColumnSides;
         return foot + glm::dvec3(ring.x * std::cos(angle), ring.y, -ring.x * std::sin(angle));
@@ -212,7 +212,7 @@ Scene makeAtrium() {
     addAtriumCamera(builder, "court", {-9.6, 1.7, 1.3}, {8.0, 3.4, -1.2}, 1.0f);
     addAtriumCamera(builder, "ground arcade", {-12.6, 1.8, -5.0}, {2.0, 2.2, -3.4}, 1.0f);
     addAtriumCamera(builder, "upper arcade", {9.2, 7.9, 4.9}, {-4.0, 6.3, -2.2}, 1.0f);
-    addAtriumCamera(builder, "overview", {-16.0, 29.0, 8.5}, {0.5, 3.0, -1.0}, 0.75f);
+    addAtriumCamera(builder, "from the roof", {-10.2, 12.4, 2.6}, {4.0, 0.0, -1.4}, 0.9f);
     return std::move(builder).finish("atrium");
 }
 
