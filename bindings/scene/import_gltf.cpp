@@ -1,6 +1,5 @@
 #include "bindings/scene/import_gltf.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
