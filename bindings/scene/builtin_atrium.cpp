@@ -15,7 +15,7 @@ namespace {
 
 // All in m, the court's centre at x = z = 0.
 constexpr double kOuterX = 15.0, kOuterZ = 6.5;   // outer faces of the outer walls
-constexpr double kCourtX = 10.9, kCourtZ = 3.1;   // arcade faces towards the court
+constexpr double kCourtX = 10.9, kCourtZ = 3.6;   // arcade faces towards the court
 constexpr double kOuterWall = 0.42, kArcade = 0.46;  // thicknesses
 constexpr double kSpringing = 3.9;                // height of the springing of the arches above their floor
 constexpr double kPier = 0.2;                     // half the width of the masonry between two arches
@@ -86,9 +86,9 @@ void addArches(SceneBuilder& builder, const RowFrame& frame, double length, int 
     }
 }
 
-// A round column from the floor up to the springing: foot, shaft, and a capital with a top that juts out.
+// A round column from the floor up to the springing: foot, shaft, and a capital flush with the wall that it bears.
 void addColumn(SceneBuilder& builder, const glm::dvec3& foot, std::uint32_t material) {
-    const glm::dvec2 profile[] = {{0.38, 0.0}, {0.38, 0.3}, {0.27, 0.42}, {0.2, kSpringing - 0.5}, {kPier, kSpringing - 0.15},
+    const glm::dvec2 profile[] = {{0.29, 0.0}, {0.29, 0.2}, {0.24, 0.3}, {0.2, kSpringing - 0.5}, {kPier, kSpringing - 0.15},
                                   {kPier, kSpringing}, {0.0, kSpringing}};  // radius, height
     auto at = [&](const glm::dvec2& ring, int side) {
         const double angle = glm::two_pi<double>() * (side % kColumnSides) / kColumnSides;
@@ -206,13 +206,13 @@ Scene makeAtrium() {
     addArcades(builder, materials.stone);
     addDrapes(builder);
 
-    // A slanting sun that reaches the floor of the court and the north arcade.
-    builder.addLight("sun", makeDirectionalLight({0.35f, -1.0f, -0.22f}, {10.0f, 9.5f, 8.6f}), {0, 20, 0});
+    // A slanting sun that lights the north arcade through the open top, and shines through its upper arches.
+    builder.addLight("sun", makeDirectionalLight({0.30f, -0.75f, -0.62f}, {10.0f, 9.5f, 8.6f}), {0, 20, 0});
 
     addAtriumCamera(builder, "court", {-9.6, 1.7, 1.3}, {8.0, 3.4, -1.2}, 1.0f);
     addAtriumCamera(builder, "ground arcade", {-12.6, 1.8, -5.0}, {2.0, 2.2, -3.4}, 1.0f);
     addAtriumCamera(builder, "upper arcade", {9.2, 7.9, 4.9}, {-4.0, 6.3, -2.2}, 1.0f);
-    addAtriumCamera(builder, "from the roof", {-10.2, 12.4, 2.6}, {4.0, 0.0, -1.4}, 0.9f);
+    addAtriumCamera(builder, "from the roof", {0.4, 12.2, 2.8}, {-6.0, 1.0, -2.8}, 1.0f);
     return std::move(builder).finish("atrium");
 }
 
