@@ -1,6 +1,7 @@
 // Builds a level from the scene: which cells have slots, their open volumes, and what each slot sees of its neighbours.
 #ifndef CLV_CPU_BUILD_LEVEL_H
 #define CLV_CPU_BUILD_LEVEL_H
+#include <functional>
 #include <span>
 
 #include "../stages/evaluate.h"
@@ -30,95 +31,180 @@ inline std::vector<std::uint8_t> neededCells(const ClvVolume& volume, std::span<
     return needed;
 }
 
+inline std::size_t cellsInBox(const CellBox& box) {
+    const ivec3 size = max(box.hi - box.lo, ivec3(0));
+    return std::size_t(size.x) * size.y * size.z;
+}
+
+// Cell i of a box, x fastest.
+inline ivec3 cellOfBox(const CellBox& box, std::size_t i) {
+    const ivec3 size = box.hi - box.lo;
+    return box.lo + ivec3(int(i % size.x), int(i / size.x % size.y), int(i / (std::size_t(size.x) * size.y)));
+}
+
+// The open regions of the cells of a box, found in parallel. Keeps its memory from box to box.
+class BoxSurvey {
+public:
+    // `needed`: a flag a cell of the box, x fastest, or empty for all cells. Others count as having no open space.
+    void run(const ClvVolume& volume, const CellBox& box, int linesPerCell, const std::vector<std::uint8_t>& needed,
+             const SceneProbe& probe, const ParallelFor& parallelFor) {
+        lines_.trace(volume, box, linesPerCell, needed, probe, parallelFor);
+        const std::size_t cells = cellsInBox(box), each = (cells + kPieces - 1) / kPieces;
+        auto findPiece = [&](std::size_t p) {
+            Piece& piece = pieces_[p];
+            piece.found.clear();
+            piece.regions.clear();
+            piece.splits.clear();
+            for (std::size_t i = p * each; i < std::min(cells, (p + 1) * each); ++i) {
+                if (needed.empty() || needed[i]) piece.add(cellOfBox(box, i), lines_);
+            }
+        };
+        parallelFor(kPieces, std::ref(findPiece));
+    }
+
+    // Calls visit(cell, cut, regions, splits) for every cell with open space, x fastest; see CellRegions.
+    template <class Visit>
+    void forEach(Visit&& visit) const {
+        for (const Piece& piece : pieces_) {
+            const OpenRegion* region = piece.regions.data();
+            const RegionSplit* split = piece.splits.data();
+            for (const Found& found : piece.found) {
+                visit(found.cell, found.cut, std::span(region, found.regions), std::span(split, found.splits));
+                region += found.regions;
+                split += found.splits;
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t kPieces = 64;
+
+    struct Found {
+        ivec3 cell;
+        bool cut;
+        std::uint8_t regions, splits;
+    };
+    struct Piece {
+        RegionFinder finder;
+        std::vector<Found> found;
+        std::vector<OpenRegion> regions;
+        std::vector<RegionSplit> splits;
+
+        void add(const ivec3& cell, const LineGrid& lines) {
+            const CellRegions& open = finder.find(lines, cell);
+            if (open.regions.empty()) return;
+            found.push_back({cell, open.cut, std::uint8_t(open.regions.size()), std::uint8_t(open.splits.size())});
+            regions.insert(regions.end(), open.regions.begin(), open.regions.end());
+            splits.insert(splits.end(), open.splits.begin(), open.splits.end());
+        }
+    };
+
+    LineGrid lines_;
+    std::vector<Piece> pieces_{kPieces};
+};
+
+// What is known of a level while it is built, beyond what it stores.
+struct LevelSketch {
+    std::vector<std::uint8_t> cut;  // a cell each: a surface crosses it
+    std::vector<vec3> inside;       // a slot each: a point of its region, m
+    std::vector<uvec4> lower;       // a slot each: ClvSlot::visible for its own cell and the neighbours of lower number
+
+    void resizeSlots(std::size_t count) {
+        inside.resize(count);
+        lower.resize(count, uvec4(~0u));
+    }
+};
+
+// Writes what was found in a cell: its regions into the slots from firstSlot on, its splits from firstSplit on, which must exist.
+inline void storeCell(Level& level, LevelSketch& sketch, uint cell, bool cut, std::span<const OpenRegion> regions,
+                      std::span<const RegionSplit> splits, uint firstSlot, uint firstSplit) {
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        level.slots[firstSlot + i] = {regions[i].centroid, regions[i].volume, uvec4(~0u), cell, 0, 0, 0};
+        sketch.inside[firstSlot + i] = regions[i].inside;
+    }
+    sketch.cut[cell] = cut;
+    level.table[cell] = splits.empty() ? firstSlot : kClvSplitBit | firstSplit;
+    auto child = [&](int index) { return index < 0 ? firstSlot + uint(-1 - index) : kClvSplitBit | (firstSplit + uint(index)); };
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+        level.splits[firstSplit + i] = {splits[i].plane, child(splits[i].front), child(splits[i].back), firstSlot, uint(regions.size())};
+    }
+}
+
+// Calls visit(k, other, ordinal) for the slots of neighbours [from, to) of a slot's cell, wherever one of the two is cut.
+template <class Visit>
+void forNeighbourSlots(const Level& level, const LevelSketch& sketch, uint slot, int from, int to, Visit&& visit) {
+    const uint mine = level.slots[slot].cell;
+    const ivec3 cell = clvCellFromIndex(level.volume, mine);
+    for (int k = from; k < to; ++k) {
+        const ivec3 other = cell + ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        if (!clvCellInside(level.volume, other)) continue;
+        const uint index = clvCellIndex(level.volume, other);
+        const uint entry = level.table[index];
+        if (entry == kClvNoSlot || !(sketch.cut[mine] || sketch.cut[index])) continue;
+        const CellSlots slots = slotsOfCell(level, entry);
+        for (uint i = 0; i < slots.count; ++i) visit(k, slots.first + i, int(i));
+    }
+}
+
+// What a slot sees of its neighbours: one ray a pair, from the one of higher number. Neighbour 13 is the cell itself.
+inline void seeLowerNeighbours(const Level& level, LevelSketch& sketch, uint slot, const SceneProbe& probe) {
+    uvec4 seen(~0u);
+    forNeighbourSlots(level, sketch, slot, 0, 14, [&](int k, uint other, int ordinal) {
+        if (other != slot && probe.occluded(sketch.inside[slot], sketch.inside[other])) seen[ordinal] &= ~(1u << k);
+    });
+    sketch.lower[slot] = seen;
+}
+
+// The rest mirrors what the neighbours of higher number have seen, so all of them must have looked before.
+inline void mirrorHigherNeighbours(Level& level, const LevelSketch& sketch, uint slot) {
+    uvec4 seen = sketch.lower[slot];
+    const uint mine = slot - slotsOfCell(level, level.table[level.slots[slot].cell]).first;
+    forNeighbourSlots(level, sketch, slot, 14, 27, [&](int k, uint other, int ordinal) {
+        if (!(sketch.lower[other][int(mine)] >> (26 - k) & 1u)) seen[ordinal] &= ~(1u << k);
+    });
+    level.slots[slot].visible = seen;
+}
+
 // `needed`: a flag a cell, x fastest in logical coordinates, or empty for all cells. Cells that are not needed get no slot.
 inline Level buildLevel(const ClvVolume& volume, const SceneProbe& probe, const std::vector<std::uint8_t>& needed,
                         const ParallelFor& parallelFor, const BuildOptions& options = {}) {
-    const ivec3 size = volume.resolution;
-    const std::size_t cells = std::size_t(size.x) * size.y * size.z;
+    const CellBox all{ivec3(0), volume.resolution};
+    const std::size_t cells = cellsInBox(all);
     Level level;
     level.volume = volume;
     level.table.assign(cells, kClvNoSlot);
+    LevelSketch sketch;
+    sketch.cut.assign(cells, 0);
 
-    const int perCell = options.linesPerCell > 0 ? options.linesPerCell : std::clamp(int(256 / std::cbrt(double(cells))), 3, 8);
-    std::vector<std::vector<std::pair<uint, CellRegions>>> slabs(size.z);
-    if (options.findRegions) {
-        LineGrid lines(volume, {ivec3(0), size}, perCell, needed, probe, parallelFor);
-        parallelFor(std::size_t(size.z), [&](std::size_t z) {
-            RegionFinder finder(volume, lines);
-            for (int y = 0; y < size.y; ++y) {
-                for (int x = 0; x < size.x; ++x) {
-                    const std::size_t flag = std::size_t(x) + std::size_t(size.x) * (y + std::size_t(size.y) * z);
-                    if (!needed.empty() && !needed[flag]) continue;
-                    ivec3 cell(x, y, int(z));
-                    CellRegions regions = finder.find(cell);
-                    if (!regions.regions.empty()) slabs[z].emplace_back(clvCellIndex(volume, cell), std::move(regions));
-                }
-            }
-        });
-    } else {
-        for (std::size_t i = 0; i < cells; ++i) {
-            if (!needed.empty() && !needed[i]) continue;
-            ivec3 cell(int(i) % size.x, int(i) / size.x % size.y, int(i) / (size.x * size.y));
-            CellRegions regions;
-            regions.regions.push_back({volume.cellSize * volume.cellSize * volume.cellSize, clvCellCenter(volume, cell), clvCellCenter(volume, cell)});
-            slabs[cell.z].emplace_back(clvCellIndex(volume, cell), regions);
-        }
-    }
-
-    std::vector<vec3> inside;
-    std::vector<std::uint8_t> cut(cells, 0);
-    for (const auto& slab : slabs) {
-        for (const auto& [cell, regions] : slab) {
-            const uint first = uint(level.slots.size()), root = uint(level.splits.size());
-            for (const OpenRegion& region : regions.regions) {
-                level.slots.push_back({region.centroid, region.volume, uvec4(~0u), cell, 0, 0, 0});
-                inside.push_back(region.inside);
-            }
-            cut[cell] = regions.cut;
-            level.table[cell] = regions.splits.empty() ? first : kClvSplitBit | root;
-            auto child = [&](int index) { return index < 0 ? first + uint(-1 - index) : kClvSplitBit | (root + uint(index)); };
-            for (const RegionSplit& split : regions.splits) {
-                level.splits.push_back({split.plane, child(split.front), child(split.back), first, uint(regions.regions.size())});
-            }
-        }
-    }
-    if (!options.findRegions) return level;
-
-    // What each slot sees of its neighbours: one ray a pair, from the lower neighbour numbers; the others mirror them.
-    auto forNeighbours = [&](const ClvSlot& slot, int from, int to, auto&& visit) {
-        const ivec3 cell = clvCellFromIndex(volume, slot.cell);
-        for (int k = from; k < to; ++k) {
-            const ivec3 other = cell + ivec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-            if (!clvCellInside(volume, other)) continue;
-            const uint index = clvCellIndex(volume, other);
-            const uint entry = level.table[index];
-            if (entry == kClvNoSlot || !(cut[slot.cell] || cut[index])) continue;
-            const CellSlots slots = slotsOfCell(level, entry);
-            for (uint i = 0; i < slots.count; ++i) visit(k, slots.first + i, int(i));
-        }
+    auto append = [&](const ivec3& cell, bool cut, std::span<const OpenRegion> regions, std::span<const RegionSplit> splits) {
+        const std::size_t slot = level.slots.size(), split = level.splits.size();
+        level.slots.resize(slot + regions.size());
+        level.splits.resize(split + splits.size());
+        sketch.resizeSlots(slot + regions.size());
+        storeCell(level, sketch, clvCellIndex(volume, cell), cut, regions, splits, uint(slot), uint(split));
     };
+    if (!options.findRegions) {
+        const float cellVolume = volume.cellSize * volume.cellSize * volume.cellSize;
+        for (std::size_t i = 0; i < cells; ++i) {
+            const ivec3 cell = cellOfBox(all, i);
+            const OpenRegion whole{cellVolume, clvCellCenter(volume, cell), clvCellCenter(volume, cell)};
+            if (needed.empty() || needed[i]) append(cell, false, std::span(&whole, 1), {});
+        }
+        return level;
+    }
+    const int linesPerCell = options.linesPerCell > 0 ? options.linesPerCell : std::clamp(int(256 / std::cbrt(double(cells))), 3, 8);
+    BoxSurvey survey;
+    survey.run(volume, all, linesPerCell, needed, probe, parallelFor);
+    survey.forEach(append);
+
     const std::size_t kPiece = 512;
-    const std::size_t pieces = (level.slots.size() + kPiece - 1) / kPiece;
     auto forSlots = [&](auto&& body) {
-        parallelFor(pieces, [&](std::size_t piece) {
+        parallelFor((level.slots.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
             for (std::size_t s = piece * kPiece; s < std::min(level.slots.size(), (piece + 1) * kPiece); ++s) body(uint(s));
         });
     };
-    std::vector<uvec4> lower(level.slots.size(), uvec4(~0u));
-    forSlots([&](uint s) {
-        // Neighbour 13 is the cell itself.
-        forNeighbours(level.slots[s], 0, 14, [&](int k, uint other, int ordinal) {
-            if (other != s && probe.occluded(inside[s], inside[other])) lower[s][ordinal] &= ~(1u << k);
-        });
-    });
-    forSlots([&](uint s) {
-        ClvSlot& slot = level.slots[s];
-        slot.visible = lower[s];
-        const uint mine = s - slotsOfCell(level, level.table[slot.cell]).first;
-        forNeighbours(slot, 14, 27, [&](int k, uint other, int ordinal) {
-            if (!(lower[other][int(mine)] >> (26 - k) & 1u)) slot.visible[ordinal] &= ~(1u << k);
-        });
-    });
+    forSlots([&](uint slot) { seeLowerNeighbours(level, sketch, slot, probe); });
+    forSlots([&](uint slot) { mirrorHigherNeighbours(level, sketch, slot); });
     return level;
 }
 

@@ -33,18 +33,21 @@ struct CellRegions {
 // Finds the regions of one cell after another; keeps its memory. One for each piece of work.
 class RegionFinder {
 public:
-    RegionFinder(const ClvVolume& volume, const LineGrid& lines) : volume_(volume), lines_(lines), n_(lines.perCell()) {
+    // What find() says stays until it is called again.
+    const CellRegions& find(const LineGrid& lines, const ivec3& cell) {
+        lines_ = &lines;
+        n_ = lines.perCell();
         for (auto& axis : nodeAt_) axis.resize(std::size_t(n_) * n_ * n_);
-    }
-
-    CellRegions find(const ivec3& cell) {
         cell_ = cell;
-        h_ = volume_.cellSize;
-        lowest_ = volume_.origin + h_ * vec3(cell);
+        h_ = lines.volume().cellSize;
+        lowest_ = lines.volume().origin + h_ * vec3(cell);
         nodes_.clear();
         ends_.clear();
         surfaces_.clear();
-        CellRegions out;
+        CellRegions& out = found_;
+        out.cut = false;
+        out.regions.clear();
+        out.splits.clear();
         for (int axis = 0; axis < 3; ++axis) crossings_[axis] = 0;
         for (int axis = 0; axis < 3; ++axis) {
             for (int j = 0; j < n_; ++j) {
@@ -140,8 +143,8 @@ private:
     int& nodeAt(int axis, const ivec3& p) { return nodeAt_[axis][std::size_t(p.x + n_ * (p.y + n_ * p.z))]; }
 
     void addLine(int axis, int i, int j, bool& cut) {
-        auto hits = lines_.line(axis, cell_, i, j);
-        const float begin = lines_.cellBegin(axis, cell_);
+        auto hits = lines_->line(axis, cell_, i, j);
+        const float begin = lines_->cellBegin(axis, cell_);
         const float margin = kFaceMargin * h_;
         auto nearFirst = std::lower_bound(hits.begin(), hits.end(), begin - margin, [](const LineHit& a, float d) { return a.distance < d; });
         auto first = nearFirst;
@@ -160,13 +163,13 @@ private:
             const int above = hit == hits.end() ? 0 : hit->front ? 1 : -1;
             const int node = int(nodes_.size());
             nodes_.push_back({node, axis, i, j, from, to, below, above});
-            for (; k < n_ && (atEnd || lines_.latticeOffset(axis, k) * h_ < to); ++k) nodeAt(axis, latticePoint(axis, k, i, j)) = node;
+            for (; k < n_ && (atEnd || lines_->latticeOffset(axis, k) * h_ < to); ++k) nodeAt(axis, latticePoint(axis, k, i, j)) = node;
             if (atEnd) break;
             crossings_[axis]++;
             vec3 position(0.0f);  // from the lowest corner
             position[axis] += to;
-            position[(axis + 1) % 3] += h_ * lines_.latticeOffset((axis + 1) % 3, i);
-            position[(axis + 2) % 3] += h_ * lines_.latticeOffset((axis + 2) % 3, j);
+            position[(axis + 1) % 3] += h_ * lines_->latticeOffset((axis + 1) % 3, i);
+            position[(axis + 2) % 3] += h_ * lines_->latticeOffset((axis + 2) % 3, j);
             surfaces_.push_back({hit->normal, position, axis, node});
             from = to;
         }
@@ -180,7 +183,7 @@ private:
 
     bool holdsLattice(const Node& node) const {
         for (int k = 0; k < n_; ++k) {
-            float p = lines_.latticeOffset(node.axis, k) * h_;
+            float p = lines_->latticeOffset(node.axis, k) * h_;
             if (p >= node.begin && p < node.end) return true;
         }
         return false;
@@ -216,8 +219,8 @@ private:
     vec3 midpoint(const Node& node) const {
         vec3 p;
         p[node.axis] = 0.5f * (node.begin + node.end);
-        p[(node.axis + 1) % 3] = h_ * lines_.latticeOffset((node.axis + 1) % 3, node.i);
-        p[(node.axis + 2) % 3] = h_ * lines_.latticeOffset((node.axis + 2) % 3, node.j);
+        p[(node.axis + 1) % 3] = h_ * lines_->latticeOffset((node.axis + 1) % 3, node.i);
+        p[(node.axis + 2) % 3] = h_ * lines_->latticeOffset((node.axis + 2) % 3, node.j);
         return p;
     }
 
@@ -295,7 +298,10 @@ private:
             match->facing[1].add(upwards ? below : above, s.position);
             match->count++;
         }
-        std::stable_sort(planes_.begin(), planes_.end(), [](const Plane& a, const Plane& b) { return a.count > b.count; });
+        // Insertion keeps the order of equals, and needs no memory as std::stable_sort does.
+        for (std::size_t i = 1; i < planes_.size(); ++i) {
+            for (std::size_t k = i; k > 0 && planes_[k].count > planes_[k - 1].count; --k) std::swap(planes_[k], planes_[k - 1]);
+        }
         if (planes_.size() > kMostPlanes) planes_.resize(kMostPlanes);
     }
 
@@ -370,9 +376,7 @@ private:
             return -1 - region;
         }
         const vec4 equation = planeEquation(planes_[best]);
-        const auto middle = std::stable_partition(samples_.begin() + first, samples_.begin() + last,
-                                                  [&](const Sample& s) { return dot(vec3(equation), s.position) > equation.w; });
-        const std::size_t half = std::size_t(middle - samples_.begin());
+        const std::size_t half = partition(first, last, equation);
         const std::size_t node = out.splits.size();
         out.splits.push_back({vec4(vec3(equation), equation.w + dot(vec3(equation), lowest_)), 0, 0});
         const int front = growTree(out, first, half, depth + 1);
@@ -380,6 +384,19 @@ private:
         out.splits[node].front = front;
         out.splits[node].back = back;
         return int(node);
+    }
+
+    // Moves samples in front of the plane before the others, each kind in its order; returns where the others begin.
+    std::size_t partition(std::size_t first, std::size_t last, const vec4& equation) {
+        behind_.clear();
+        std::size_t half = first;
+        for (std::size_t k = first; k < last; ++k) {
+            const Sample s = samples_[k];
+            if (dot(vec3(equation), s.position) > equation.w) samples_[half++] = s;
+            else behind_.push_back(s);
+        }
+        std::copy(behind_.begin(), behind_.end(), samples_.begin() + half);
+        return half;
     }
 
     // Volume, centroid and inner point of each region, by the samples that the tree sends to it. Regions that got none are dropped.
@@ -410,9 +427,8 @@ private:
         if (out.regions.size() < 2) out.splits.clear();
     }
 
-    const ClvVolume& volume_;
-    const LineGrid& lines_;
-    int n_;
+    const LineGrid* lines_ = nullptr;
+    int n_ = 0;
     ivec3 cell_{0};
     float h_ = 0;
     vec3 lowest_{0.0f};
@@ -424,7 +440,9 @@ private:
     std::vector<Region> regions_;
     std::vector<int> regionOf_;  // a node each, -1: none that is kept
     std::vector<Sample> samples_;
+    std::vector<Sample> behind_;
     std::vector<Plane> planes_;
+    CellRegions found_;
 };
 
 }  // namespace clv

@@ -2,6 +2,7 @@
 #ifndef CLV_CPU_LINE_GRID_H
 #define CLV_CPU_LINE_GRID_H
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,23 +21,29 @@ struct CellBox {
 class LineGrid {
 public:
     // Only lines that pass a needed cell are traced; `needed` holds a flag for each cell of the box, x fastest, or is empty (all).
-    LineGrid(const ClvVolume& volume, const CellBox& box, int perCell, const std::vector<std::uint8_t>& needed,
-             const SceneProbe& probe, const ParallelFor& parallelFor)
-        : volume_(volume), box_(box), perCell_(perCell) {
+    // May be called again for another box: memory is kept.
+    void trace(const ClvVolume& volume, const CellBox& box, int perCell, const std::vector<std::uint8_t>& needed,
+               const SceneProbe& probe, const ParallelFor& parallelFor) {
+        volume_ = volume;
+        box_ = box;
+        perCell_ = perCell;
         const ivec3 size = box.hi - box.lo;
         for (int axis = 0; axis < 3; ++axis) {
             const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-            std::vector<std::uint8_t> columns(std::size_t(size[b]) * size[c], needed.empty() ? 1 : 0);
+            columns_.assign(std::size_t(size[b]) * size[c], needed.empty() ? 1 : 0);
             for (std::size_t i = 0; i < needed.size(); ++i) {
                 if (!needed[i]) continue;
                 const int cell[3] = {int(i) % size.x, int(i) / size.x % size.y, int(i) / (size.x * size.y)};
-                columns[std::size_t(cell[b]) + std::size_t(size[b]) * cell[c]] = 1;
+                columns_[std::size_t(cell[b]) + std::size_t(size[b]) * cell[c]] = 1;
             }
-            rows_[axis].resize(std::size_t(size[c]) * perCell);
-            parallelFor(rows_[axis].size(), [&](std::size_t row) { traceRow(axis, int(row), columns, probe); });
+            const std::size_t rows = std::size_t(size[c]) * perCell;
+            if (rows_[axis].size() < rows) rows_[axis].resize(rows);
+            auto traceOne = [&](std::size_t row) { traceRow(axis, int(row), probe); };
+            parallelFor(rows, std::ref(traceOne));
         }
     }
 
+    const ClvVolume& volume() const { return volume_; }
     int perCell() const { return perCell_; }
 
     // Offset of a lattice coordinate inside a cell, in cells. The small shifts keep lines off surfaces that are aligned with cells.
@@ -61,30 +68,31 @@ private:
     struct Row {
         std::vector<std::uint32_t> begin;  // a line each, and the end
         std::vector<LineHit> hits;
+        std::vector<LineHit> ofLine;       // while it is traced
     };
 
-    void traceRow(int axis, int rowIndex, const std::vector<std::uint8_t>& columns, const SceneProbe& probe) {
+    void traceRow(int axis, int rowIndex, const SceneProbe& probe) {
         const int b = (axis + 1) % 3, c = (axis + 2) % 3;
         const int columnsB = box_.hi[b] - box_.lo[b];
         const float h = volume_.cellSize;
         const float length = float(box_.hi[axis] - box_.lo[axis]) * h;
         Row& row = rows_[axis][rowIndex];
         row.begin.assign(std::size_t(columnsB) * perCell_ + 1, 0);
-        std::vector<LineHit> hits;
+        row.hits.clear();
         vec3 direction(0.0f);
         direction[axis] = 1.0f;
         vec3 origin = volume_.origin + h * vec3(box_.lo);
-        // Lines begin before the box and end behind it, so that a solid which the box cuts shows both of its faces.
-        const float margin = length;
+        // Lines begin a volume's length before the box and end as far behind it, so that a solid which the box cuts shows both faces.
+        const float margin = float(volume_.resolution[axis]) * h;
         for (int k = 0; k < columnsB * perCell_; ++k) {
             row.begin[k] = std::uint32_t(row.hits.size());
-            if (!columns[std::size_t(k / perCell_) + std::size_t(columnsB) * (rowIndex / perCell_)]) continue;
+            if (!columns_[std::size_t(k / perCell_) + std::size_t(columnsB) * (rowIndex / perCell_)]) continue;
             vec3 start = origin;
             start[b] += h * (float(k / perCell_) + latticeOffset(b, k % perCell_));
             start[c] += h * (float(rowIndex / perCell_) + latticeOffset(c, rowIndex % perCell_));
             start[axis] -= margin;
-            probe.lineHits(start, direction, length + 2.0f * margin, hits);
-            for (LineHit hit : hits) {
+            probe.lineHits(start, direction, length + 2.0f * margin, row.ofLine);
+            for (LineHit hit : row.ofLine) {
                 hit.distance -= margin;
                 row.hits.push_back(hit);
             }
@@ -92,9 +100,10 @@ private:
         row.begin.back() = std::uint32_t(row.hits.size());
     }
 
-    ClvVolume volume_;
-    CellBox box_;
-    int perCell_;
+    ClvVolume volume_{};
+    CellBox box_{};
+    int perCell_ = 0;
+    std::vector<std::uint8_t> columns_;
     std::vector<Row> rows_[3];
 };
 
