@@ -59,6 +59,12 @@ void walkPacketPortable(const Level& level, uint rule, std::span<const ClvRay> r
 }
 
 #if defined(__AVX512F__)
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+// GCC 12's intrinsics start from values that they leave undefined on purpose, and warn about it where they are inlined.
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace detail {
 
@@ -191,6 +197,9 @@ void walkPacketAvx512(const Level& level, uint rule, std::span<const ClvRay> ray
     }
 }
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 #endif
 
 template <class Flush>
