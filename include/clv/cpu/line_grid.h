@@ -53,7 +53,7 @@ public:
     }
 
     // All crossings of the line along `axis` with lattice coordinates (i, j) in cell column (cell[b], cell[c]), b and c the next
-    // two axes in turn. Distances are from the box's lower face, m.
+    // two axes in turn. Distances are from the volume's lower face, m: what is found in a cell does not depend on the box.
     std::span<const LineHit> line(int axis, const ivec3& cell, int i, int j) const {
         const int b = (axis + 1) % 3, c = (axis + 2) % 3;
         const Row& row = rows_[axis][std::size_t(cell[c] - box_.lo[c]) * perCell_ + j];
@@ -62,7 +62,7 @@ public:
     }
 
     // Where a cell begins along `axis`, in the distances of line().
-    float cellBegin(int axis, const ivec3& cell) const { return float(cell[axis] - box_.lo[axis]) * volume_.cellSize; }
+    float cellBegin(int axis, const ivec3& cell) const { return float(cell[axis]) * volume_.cellSize; }
 
 private:
     struct Row {
@@ -75,25 +75,23 @@ private:
         const int b = (axis + 1) % 3, c = (axis + 2) % 3;
         const int columnsB = box_.hi[b] - box_.lo[b];
         const float h = volume_.cellSize;
-        const float length = float(box_.hi[axis] - box_.lo[axis]) * h;
+        // Lines begin the volume's length before it and end as far behind it, so that a solid which it cuts shows both of its faces.
+        const float length = float(volume_.resolution[axis]) * h;
         Row& row = rows_[axis][rowIndex];
         row.begin.assign(std::size_t(columnsB) * perCell_ + 1, 0);
         row.hits.clear();
         vec3 direction(0.0f);
         direction[axis] = 1.0f;
-        vec3 origin = volume_.origin + h * vec3(box_.lo);
-        // Lines begin a volume's length before the box and end as far behind it, so that a solid which the box cuts shows both faces.
-        const float margin = float(volume_.resolution[axis]) * h;
         for (int k = 0; k < columnsB * perCell_; ++k) {
             row.begin[k] = std::uint32_t(row.hits.size());
             if (!columns_[std::size_t(k / perCell_) + std::size_t(columnsB) * (rowIndex / perCell_)]) continue;
-            vec3 start = origin;
-            start[b] += h * (float(k / perCell_) + latticeOffset(b, k % perCell_));
-            start[c] += h * (float(rowIndex / perCell_) + latticeOffset(c, rowIndex % perCell_));
-            start[axis] -= margin;
-            probe.lineHits(start, direction, length + 2.0f * margin, row.ofLine);
+            vec3 start = volume_.origin;
+            start[b] += h * (float(box_.lo[b] + k / perCell_) + latticeOffset(b, k % perCell_));
+            start[c] += h * (float(box_.lo[c] + rowIndex / perCell_) + latticeOffset(c, rowIndex % perCell_));
+            start[axis] -= length;
+            probe.lineHits(start, direction, 3.0f * length, row.ofLine);
             for (LineHit hit : row.ofLine) {
-                hit.distance -= margin;
+                hit.distance -= length;
                 row.hits.push_back(hit);
             }
         }
