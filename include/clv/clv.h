@@ -58,6 +58,7 @@
 #include "cpu/scene_probe.h"
 #include "cpu/still_lighting.h"
 #include "cpu/texel_sampler.h"
+#include "cpu/texture_arrays.h"
 #include "cpu/volume.h"
 
 #endif
