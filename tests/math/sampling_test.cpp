@@ -55,6 +55,15 @@ double chanceOfDirections(const std::function<vec3(vec2)>& sample, const std::fu
     return test::chiSquareChance(c, e);
 }
 
+TEST(CosSin, isRightToTheLastBitsOfAFloat) {
+    for (int i = -4000; i <= 4000; ++i) {
+        const float angle = float(i) / 4000.0f * 0.25f * kClvPi;
+        const vec2 turn = clvCosSinSmall(angle);
+        ASSERT_NEAR(turn.x, std::cos(double(angle)), 1e-7) << angle;
+        ASSERT_NEAR(turn.y, std::sin(double(angle)), 1e-7 * std::abs(angle) + 1e-30) << angle;
+    }
+}
+
 TEST(Basis, isRightHandedAndOrthonormalForAllNormals) {
     for (uint i = 0; i < 100000; ++i) {
         vec3 n = i < kNormals.size() ? kNormals[i] : test::randomDirection(2u, i), t, b;

@@ -14,15 +14,25 @@ CLV_FN void clvBasis(vec3 normal, CLV_OUT(vec3) tangent, CLV_OUT(vec3) bitangent
     bitangent = vec3(b, side + normal.y * normal.y * a, -normal.y);
 }
 
+// Cosine and sine of an angle in [-pi/4, pi/4], rad: Taylor series as far as a float sees them. The languages' own functions differ
+// from each other, and do not run in vectors.
+CLV_FN vec2 clvCosSinSmall(float angle) {
+    float x = angle * angle;
+    float c = 1.0f - x * (1.0f / 2.0f) * (1.0f - x * (1.0f / 12.0f) * (1.0f - x * (1.0f / 30.0f) * (1.0f - x * (1.0f / 56.0f))));
+    float s = 1.0f - x * (1.0f / 6.0f) * (1.0f - x * (1.0f / 20.0f) * (1.0f - x * (1.0f / 42.0f) * (1.0f - x * (1.0f / 72.0f))));
+    return vec2(c, s * angle);
+}
+
 // Point of the unit disk, uniform by area (Shirley and Chiu 1997: concentric squares become concentric circles).
 CLV_FN vec2 clvDiskFromSquare(vec2 u) {
     float x = 2.0f * u.x - 1.0f;
     float y = 2.0f * u.y - 1.0f;
-    if (x == 0.0f && y == 0.0f) return vec2(0.0f, 0.0f);
     bool wide = abs(x) > abs(y);
     float radius = wide ? x : y;
-    float angle = wide ? (0.25f * kClvPi) * (y / x) : 0.5f * kClvPi - (0.25f * kClvPi) * (x / y);
-    return vec2(radius * cos(angle), radius * sin(angle));
+    float across = wide ? y : x;
+    // At the centre both are 0.
+    vec2 turn = clvCosSinSmall((0.25f * kClvPi) * (across / (radius == 0.0f ? 1.0f : radius)));
+    return vec2(radius * (wide ? turn.x : turn.y), radius * (wide ? turn.y : turn.x));
 }
 
 // Density by area of a point of the unit disk.

@@ -19,19 +19,24 @@ CLV_FN ClvRay clvDeadRay() {
     return ray;
 }
 
-// A ray from the texel's surface into its hemisphere, cosine-weighted: a Lambertian surface sends the same flux along each.
-// directionSample: in [0, 1)^2. invPdfScale: how many texels this ray stands for: 1 / (its texel's chance to be picked *
-// the number of rays). originOffset: m along the normal, so that the ray does not meet its own surface.
+// A ray from the texel's surface along `direction`. invPdfScale: how many texels this ray stands for: 1 / (its texel's chance to
+// be picked * the number of rays). originOffset: m along the normal, so that the ray does not meet its own surface.
 // A texel without a surface, or whose flux is not finite, gives a dead ray.
-CLV_FN ClvRay clvRayFromTexel(ClvRsmTexel texel, vec2 directionSample, float invPdfScale, float originOffset) {
+CLV_FN ClvRay clvRayAlong(ClvRsmTexel texel, vec3 direction, float invPdfScale, float originOffset) {
     ClvRay ray = clvDeadRay();
     if (texel.valid == 0u || !clvIsFinite(texel.flux)) return ray;
     ray.origin = texel.position + texel.normal * originOffset;
     ray.maxDistance = kClvFar;
-    ray.direction = clvCosineFromSquare(directionSample, texel.normal);
+    ray.direction = direction;
     ray.dynamicity = texel.dynamicity;
     ray.flux = texel.flux * invPdfScale;
     return ray;
+}
+
+// The same into the texel's hemisphere, cosine-weighted: a Lambertian surface sends the same flux along each. directionSample:
+// in [0, 1)^2.
+CLV_FN ClvRay clvRayFromTexel(ClvRsmTexel texel, vec2 directionSample, float invPdfScale, float originOffset) {
+    return clvRayAlong(texel, clvCosineFromSquare(directionSample, texel.normal), invPdfScale, originOffset);
 }
 
 // Russian roulette: 0 kills the ray, anything else multiplies its flux. Rays whose largest channel is at or above
