@@ -6,6 +6,7 @@
 
 #include "clv/cpu/build_level.h"
 #include "clv/cpu/evaluate.h"
+#include "clv/cpu/volume.h"
 #include "clv/math/hash.h"
 #include "clv/math/sampling.h"
 
@@ -44,7 +45,7 @@ std::vector<float> meanHistory(const Volume& volume) {
 std::vector<float> texturesOf(const Volume& volume) {
     // Whatever is not overwritten is found.
     std::vector<float> out(textureValues(volume.level().volume.resolution, volume.layout().storage), std::numeric_limits<float>::quiet_NaN());
-    writeTextures(volume, serialFor(), out);
+    writeTextures(volume.level(), volume.layout(), {volume.history(0), volume.history(1)}, serialFor(), out);
     return out;
 }
 
@@ -174,11 +175,18 @@ TEST(TextureArrays, cellsKeepTheirTexelWhileTheVolumeScrolls) {
     }
 }
 
+TEST(TextureArrays, aSingleEstimateIsWrittenAsItIs) {
+    const Volume volume = filledVolume(splitLevel(), {kClvStorageCube, 1});
+    std::vector<float> out(textureValues(volume.level().volume.resolution, kClvStorageCube));
+    writeTextures(volume.level(), volume.layout(), {volume.history(1)}, serialFor(), out);
+    EXPECT_FLOAT_EQ(out[0], volume.history(1)[0] + volume.history(1)[std::size_t(volume.layout().stride())]);
+}
+
 TEST(TextureArrays, halvesAreTheRoundedFloats) {
     const Volume volume = filledVolume(levelsWithoutSplits(kClvStorageCube9)[1], {kClvStorageCube9, 3});
     const std::vector<float> floats = texturesOf(volume);
     std::vector<std::uint16_t> halves(floats.size(), 0xffff);
-    writeTextures(volume, serialFor(), halves);
+    writeTextures(volume.level(), volume.layout(), {volume.history(0), volume.history(1)}, serialFor(), halves);
     for (std::size_t i = 0; i < floats.size(); ++i) ASSERT_EQ(halves[i], clvHalfFromFloat(floats[i])) << i;
 }
 
