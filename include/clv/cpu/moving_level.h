@@ -35,6 +35,7 @@ public:
     // A point of a slot's open region, m.
     const vec3& inside(uint slot) const { return sketch_.inside[slot]; }
 
+    static std::size_t cellsOf(const MovingLevelSettings& settings) { return cellsInBox({ivec3(0), settings.resolution}); }
     // Slots for which memory is taken at once.
     static std::size_t slotsOf(const MovingLevelSettings& settings) {
         return std::size_t(std::ceil(double(cellsOf(settings)) * settings.slotsPerCell));
@@ -85,7 +86,6 @@ private:
     static constexpr std::size_t kCellBytes = sizeof(uint) + sizeof(std::uint8_t);
     static constexpr std::size_t kSlotBytes = sizeof(ClvSlot) + sizeof(vec3) + sizeof(uvec4);
 
-    static std::size_t cellsOf(const MovingLevelSettings& settings) { return cellsInBox({ivec3(0), settings.resolution}); }
     // A cell has a split at least for every slot beyond its first.
     static std::size_t splitsOf(const MovingLevelSettings& settings) {
         return slotsOf(settings) - std::min(slotsOf(settings), cellsOf(settings));

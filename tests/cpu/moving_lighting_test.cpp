@@ -1,0 +1,305 @@
+// Light that follows a camera through a hall.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "cpu/moving_scene.h"
+
+using namespace clv;
+using namespace clv::test;
+
+namespace {
+
+// What a still volume says where the finest cascade of `lighting` stands, after all its rays at once.
+std::vector<vec3> stillIrradiance(const LitHall& hall, const MovingLighting& lighting, std::span<const ClvReceiver> receivers,
+                                  std::size_t count, uint seed) {
+    const DepositLayout layout;
+    const ClvVolume& place = lighting.cascades().volumes[0];
+    Volume volume(buildLevel(place, hall.scene.probe(), {}, serialFor(), {.linesPerCell = 3}), layout, {.halves = 1, .chunks = 1});
+    FrameRays rays({.halves = 1, .chunks = 1}, seed, 1e-4f);
+    rays.draw(hall.sampler, count, serialFor());
+    rays.trace(hall.tracer(), serialFor());
+    inject(volume.level(), layout, kClvInjectTrackLength, rays.all(), volume.partial(0, 0));
+    volume.merge(double(count), 1.0f / float(count), serialFor());
+    std::vector<vec3> out;
+    for (const ClvReceiver& receiver : receivers) {
+        SlotWeights weights;
+        lookupWeights(volume.level(), receiver, {}, weights);
+        out.push_back(readIrradiance(layout, volume.history(0), weights, clvReadCoefficients(layout.storage, receiver.normal)));
+    }
+    return out;
+}
+
+TEST(MovingLighting, convergesToAStillVolumeAfterTheCameraStops) {
+    const LitHall hall;
+    MovingLighting lighting(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
+    const std::size_t rays = 4000;
+    for (int step = 0; step <= 40; ++step) {
+        lighting.moveTo(viewFrom(-6.0 + 0.15 * step, -1.5, 1.0));
+        hall.frame(lighting, rays);
+    }
+    const auto receivers = floorAround(vec3(0.0f, 0.0f, 1.0f), 3.0f);
+    const auto truth = stillIrradiance(hall, lighting, receivers, 1000000, 17);
+    const double onArrival = relativeError(irradianceAt(lighting, receivers), truth);
+    const int frames = 60;
+    for (int frame = 0; frame < frames; ++frame) {
+        lighting.moveTo(viewFrom(0.0, -1.5, 1.0));
+        hall.frame(lighting, rays);
+    }
+    const double moved = relativeError(irradianceAt(lighting, receivers), truth);
+    const double still = relativeError(stillIrradiance(hall, lighting, receivers, frames * rays, 5), truth);
+    EXPECT_GT(meanOf(truth).x, 0.0f);
+    EXPECT_LT(moved, onArrival);
+    // Cells have at least as many rays as the still volume's; what is left of their first guesses may cost a little.
+    EXPECT_LT(moved, 1.1 * still);
+}
+
+TEST(MovingLighting, cellsThatStayKeepTheirHistoryToTheLastBit) {
+    const LitHall hall;
+    MovingLighting lighting(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-2.0, -1.0, 0.0));
+    hall.frame(lighting, 20000);
+    for (std::size_t c = 0; c < 2; ++c) {
+        const MovingVolume& volume = lighting.volumes()[c];
+        const Level before = volume.level();
+        const std::vector<float> history(volume.history().begin(), volume.history().end());
+        lighting.moveTo(viewFrom(c == 0 ? -0.5 : 2.5, -1.0, 1.0));
+        const Level& after = volume.level();
+        const vec3 moved = (after.volume.origin - before.volume.origin) / before.volume.cellSize;
+        std::size_t kept = 0, lit = 0;
+        for (uint cell = 0; cell < before.cellCount(); ++cell) {
+            const ivec3 now = clvCellFromIndex(before.volume, cell) - ivec3(glm::round(moved));
+            if (!clvCellInside(after.volume, now) || before.table[cell] == kClvNoSlot) continue;
+            ASSERT_EQ(before.table[cell], after.table[cell]);
+            const CellSlots slots = slotsOfCell(before, before.table[cell]);
+            const std::size_t stride = DepositLayout{}.stride();
+            for (std::size_t i = slots.first * stride; i < (slots.first + slots.count) * stride; ++i) {
+                ASSERT_EQ(history[i], volume.history()[i]);
+                lit += history[i] != 0.0f;
+            }
+            ++kept;
+        }
+        EXPECT_GT(kept, before.cellCount() / 4);
+        EXPECT_LT(kept, before.cellCount());
+        EXPECT_GT(lit, kept);
+    }
+}
+
+// Error at receivers that only new cells light, one frame after a move from one view to another.
+double errorAfterMove(const LitHall& hall, const MovingLightingSettings& settings, const CameraView& from, const CameraView& to,
+                      std::span<const ClvReceiver> receivers) {
+    const std::size_t rays = 1000;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(from);
+    for (int frame = 0; frame < 100; ++frame) hall.frame(lighting, rays);
+    lighting.moveTo(to);
+    hall.frame(lighting, rays);
+    return relativeError(irradianceAt(lighting, receivers), stillIrradiance(hall, lighting, receivers, 1000000, 17));
+}
+
+TEST(MovingLighting, newCellsStartFromTheNextCoarserCascade) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.slidOutFrames = 0.0f;
+    // The finest cascade reaches to x = -1 before, and to x = 2 after the move.
+    const CameraView from = viewFrom(-6.0, -1.5, 1.0), to = viewFrom(-3.0, -1.5, 1.0);
+    const auto receivers = floorAround(vec3(-0.1f, 0.0f, 1.0f), 0.7f);
+    const double guessed = errorAfterMove(hall, settings, from, to, receivers);
+    settings.guessFrames = 0.0f;
+    const double blank = errorAfterMove(hall, settings, from, to, receivers);
+    EXPECT_LT(guessed, blank / 3.0);
+}
+
+TEST(MovingLighting, newCellsOfTheLastCascadeStartFromWhatSlidOut) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.count = 1;
+    // Across the hall, where the light on both sides of the volume is much the same.
+    const CameraView from = viewFrom(-6.0, -1.5, -1.5), to = viewFrom(-6.0, -1.5, 1.5);
+    const auto receivers = floorAround(vec3(-6.0f, 0.0f, 5.0f), 1.0f);
+    const double guessed = errorAfterMove(hall, settings, from, to, receivers);
+    settings.slidOutFrames = 0.0f;
+    const double blank = errorAfterMove(hall, settings, from, to, receivers);
+    EXPECT_LT(guessed, blank / 1.3);
+}
+
+// Frames until 90 % of a step in the light shows, or `most`.
+int framesToFollow(bool movingLights, int most) {
+    LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.movingLights = movingLights;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-4.0, -1.5, 0.0));
+    const auto receivers = floorAround(vec3(-6.0f, 0.0f, 0.0f), 1.5f);
+    for (int frame = 0; frame < 60; ++frame) hall.frame(lighting, 8000);
+    const float before = meanOf(irradianceAt(lighting, receivers)).x;
+
+    ClvLight lamp{};
+    lamp.intensity = vec3(1.0f);
+    ClvLight brighter = lamp;
+    brighter.intensity = vec3(4.0f);
+    const ClvMovementScales scales{.distance = 1.0f, .angle = 0.1f, .change = 0.5f, .pad0 = 0.0f};
+    EXPECT_EQ(clvLightDynamicity(lamp, brighter, scales), 1.0f);
+    EXPECT_EQ(clvLightDynamicity(brighter, brighter, scales), 0.0f);
+
+    // Nearly all the light comes from the wall: the step multiplies it by about four.
+    LitHall after;
+    after.light(litPatches(4.0f));
+    MovingLighting settled(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    settled.moveTo(viewFrom(-4.0, -1.5, 0.0));
+    for (int frame = 0; frame < 60; ++frame) after.frame(settled, 8000);
+    const float target = meanOf(irradianceAt(settled, receivers)).x;
+    EXPECT_GT(target, 3.0f * before);
+
+    for (int frame = 1; frame <= most; ++frame) {
+        hall.light(litPatches(4.0f, frame == 1 ? clvLightDynamicity(lamp, brighter, scales) : 0.0f));
+        hall.frame(lighting, 8000);
+        if (meanOf(irradianceAt(lighting, receivers)).x - before >= 0.9f * (target - before)) return frame;
+    }
+    return most;
+}
+
+TEST(MovingLighting, followsAStepInTheLightWhereDynamicityIsKept) {
+    // History decays by exp(-1/3) a frame at dynamicity 1: 7 frames to a tenth of the step, a little more as dynamicity wears off.
+    const int frames = framesToFollow(true, 40);
+    EXPECT_LE(frames, 10);
+    EXPECT_EQ(framesToFollow(false, 40), 40);
+}
+
+TEST(MovingLighting, isContinuousAcrossCascadesAndBeyondTheLast) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(12, 12, 12);
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-4.0, 0.0, 4.0));
+    for (int frame = 0; frame < 50; ++frame) hall.frame(lighting, 20000);
+    // From the heart of the finest cascade (to x = -1) through the last one (to x = 2) and beyond.
+    std::vector<vec3> values;
+    const float step = 0.01f;
+    for (float x = -4.0f; x < 8.0f; x += step) values.push_back(lighting.irradiance({vec3(x, 0.1f, 4.0f), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f}));
+    const float mean = meanOf(values).x;
+    ASSERT_GT(mean, 0.0f);
+    float largest = 0.0f;
+    for (std::size_t i = 1; i < values.size(); ++i) largest = std::max(largest, std::abs(values[i].x - values[i - 1].x));
+    EXPECT_LT(largest, 0.01f * mean);
+    const ClvReceiver far{vec3(7.0f, 0.1f, 4.0f), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f};
+    ClvReceiver atEdge = far;
+    atEdge.position = clvClampToVolume(lighting.cascades().volumes[1], far.position);
+    EXPECT_LT(atEdge.position.x, 2.5f);
+    EXPECT_EQ(lighting.irradiance(far), lighting.irradiance(atEdge));
+    EXPECT_GT(lighting.irradiance(far).x, 0.0f);
+}
+
+TEST(MovingLighting, cullsRaysWithoutAnyEffectOnWhatIsInjected) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.count = 1;
+    settings.cascades.resolution = ivec3(12);
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(6.0, 0.0, -3.0));
+    const MovingVolume& volume = lighting.volumes()[0];
+    FrameRays all({.halves = 1, .chunks = 1}, settings.seed, settings.originOffset);
+    all.draw(hall.sampler, 20000, serialFor());
+    FrameRays fewer = all;
+    fewer.cull({&volume.level().volume, 1}, serialFor());
+    const auto dead = std::count_if(fewer.all().begin(), fewer.all().end(), [](const ClvRay& ray) { return ray.maxDistance == 0.0f; });
+    EXPECT_GT(dead, 5000);
+    EXPECT_LT(dead, 19000);
+    all.trace(hall.tracer(), serialFor());
+    fewer.trace(hall.tracer(), serialFor());
+    const DepositLayout layout;
+    AlignedFloats expected(volume.level().slots.size() * layout.stride()), culled(expected.size());
+    inject(volume.level(), layout, kClvInjectTrackLength, all.all(), {expected, {}});
+    inject(volume.level(), layout, kClvInjectTrackLength, fewer.all(), {culled, {}});
+    EXPECT_EQ(expected, culled);
+    EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.0f);
+}
+
+TEST(MovingLighting, isTheSameToTheLastBitWhateverTheThreads) {
+    const LitHall hall;
+    const ParallelFor threaded = [](std::size_t count, const std::function<void(std::size_t)>& body) {
+        std::vector<std::thread> threads;
+        for (std::size_t t = 0; t < 3; ++t) {
+            threads.emplace_back([&, t] {
+                for (std::size_t i = count; i-- > 0;) {
+                    if (i % 3 == t) body(i);
+                }
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+    };
+    MovingLightingSettings settings = twoCascades();
+    settings.chunks = 4;
+    settings.movingLights = true;
+    MovingLighting a(settings, hall.scene.probe(), hall.tracer(), serialFor()), b(settings, hall.scene.probe(), hall.tracer(), threaded);
+    for (int step = 0; step < 6; ++step) {
+        for (MovingLighting* lighting : {&a, &b}) {
+            lighting->moveTo(viewFrom(-3.0 + 0.7 * step, -1.0, 0.4 * step));
+            hall.frame(*lighting, 3000);
+        }
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+        const auto x = a.volumes()[c].history(), y = b.volumes()[c].history();
+        ASSERT_EQ(x.size(), y.size());
+        EXPECT_GT(*std::max_element(x.begin(), x.end()), 0.0f);
+        EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin()));
+    }
+}
+
+TEST(MovingLighting, forgetsAllLightOnReset) {
+    const LitHall hall;
+    MovingLighting used(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
+    used.moveTo(viewFrom(-4.0, -1.0, 0.0));
+    hall.frame(used, 5000);
+    const auto receivers = floorAround(vec3(-4.0f, 0.0f, 0.0f), 2.0f);
+    EXPECT_GT(meanOf(irradianceAt(used, receivers)).x, 0.0f);
+    used.reset();
+    EXPECT_EQ(meanOf(irradianceAt(used, receivers)), vec3(0.0f));
+    hall.frame(used, 5000);
+    for (float frames : used.volumes()[0].frames()) EXPECT_EQ(frames, 1.0f);
+}
+
+TEST(MovingLighting, statesItsMemoryBeforeItTakesIt) {
+    const LitHall hall;
+    for (bool movingLights : {false, true}) {
+        MovingLightingSettings settings = twoCascades();
+        settings.movingLights = movingLights;
+        settings.slotsPerCell = 2.5f;
+        settings.chunks = 2;
+        MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+        EXPECT_EQ(lighting.bytes(), MovingLighting::bytes(settings));
+        for (int step = 0; step < 4; ++step) {
+            lighting.moveTo(viewFrom(step, -1.0, 0.0));
+            hall.frame(lighting, 1000);
+        }
+        EXPECT_EQ(lighting.bytes(), MovingLighting::bytes(settings));
+    }
+}
+
+TEST(MovingLighting, keepsNoDynamicityWhereLightsStandStill) {
+    MovingLightingSettings still = twoCascades(), moving = still;
+    moving.movingLights = true;
+    const LitHall hall;
+    MovingLighting lighting(still, hall.scene.probe(), hall.tracer(), serialFor());
+    EXPECT_LT(MovingLighting::bytes(still), MovingLighting::bytes(moving));
+    lighting.moveTo(viewFrom(0.0, 0.0, 0.0));
+    EXPECT_EQ(lighting.bytes(), MovingLighting::bytes(still));
+}
+
+TEST(MovingLighting, saysWhatIsWrongWithItsSettings) {
+    EXPECT_EQ(validate(MovingLightingSettings{}), "");
+    MovingLightingSettings bad;
+    bad.chunks = 0;
+    EXPECT_NE(validate(bad), "");
+    bad = {};
+    bad.cascades.count = 0;
+    EXPECT_NE(validate(bad), "");
+    bad = {};
+    bad.merge.movingTime = -1.0f;
+    EXPECT_NE(validate(bad), "");
+    bad = {};
+    bad.newCellDynamicity = std::nanf("");
+    EXPECT_NE(validate(bad), "");
+}
+
+}  // namespace
