@@ -5,6 +5,7 @@
 #include "bindings/cli/light_options.h"
 #include "bindings/cli/metrics.h"
 #include "bindings/cli/options.h"
+#include "bindings/cli/pipeline.h"
 #include "bindings/cli/point_table.h"
 #include "bindings/cli/staged_output.h"
 
@@ -23,7 +24,17 @@ struct IrradianceCommand {
         const Scene loaded = loadScene(scene, report);
         const PointTable table = readPointTable(points, loaded.anchor);
         StagedFile output(out);
-        throw std::runtime_error("the light volume is not there yet");
+        std::vector<glm::vec3> irradiance(table.points.size());
+        const PipelineReport run = lightPoints(loaded, light, common.seed, parallelForOf(common), table.points, irradiance);
+        writePointTable(output.path(), table, {{"E_r,E_g,E_b", irradiance}});
+        output.commit();
+
+        report["points"] = table.points.size();
+        report["bounces"] = light.allBounces ? "all" : "one";
+        report["mean_irradiance"] = meanIrradiance(irradiance);
+        reportLight(run, report);
+        report["out"] = out;
+        printReport(report, common);
     }
 };
 

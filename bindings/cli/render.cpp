@@ -12,6 +12,7 @@
 #include "bindings/cli/light_options.h"
 #include "bindings/cli/metrics.h"
 #include "bindings/cli/options.h"
+#include "bindings/cli/pipeline.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/reference_run.h"
 #include "bindings/cli/staged_output.h"
@@ -47,10 +48,6 @@ std::vector<glm::vec3> directLight(const EmbreeScene& scene, std::span<const Ref
             irradiance[i] = directIrradiance(scene, points[i].position, points[i].normal);
     });
     return irradiance;
-}
-
-std::vector<glm::vec3> volumeLight(const Scene&, const LightOptions&, std::span<const ReferencePoint>) {
-    throw std::runtime_error("the light volume is not there yet");
 }
 
 // The four pictures and the map of the error, ready to be written.
@@ -136,7 +133,9 @@ struct RenderCommand {
         const std::vector<VisibleSurface> surfaces = visibleSurfaces(embree, view, width, rows, parallelFor);
         if (surfaces.empty()) throw InputError(fmt::format("--camera {}: it looks past the scene; expected surfaces in sight", camera));
         const std::vector<ReferencePoint> points = pointsOf(surfaces);
-        const SurfaceLight lit{directLight(embree, points, parallelFor), volumeLight(loaded, light, points),
+        std::vector<glm::vec3> indirect(points.size());
+        const PipelineReport run = lightPoints(loaded, light, common.seed, parallelFor, points, indirect);
+        const SurfaceLight lit{directLight(embree, points, parallelFor), std::move(indirect),
                                runReference(embree, points, {.samples = samples}, light.allBounces, common.seed, parallelFor).irradiance()};
         const ReferenceRun truth =
             runReference(embree, measuredOf(points), {.samples = errorSamples}, light.allBounces, common.seed, parallelFor);
@@ -156,6 +155,7 @@ struct RenderCommand {
                             {"p95", errors.p95},
                             {"pixels", truth.results.size()},
                             {"relative_standard_error", relativeStandardError(truth.results)}};
+        reportLight(run, report);
         report["out"] = out;
         report["files"] = names;
         printReport(report, common);

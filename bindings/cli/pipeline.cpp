@@ -1,0 +1,459 @@
+#include "bindings/cli/pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "bindings/cli/progress.h"
+#include "bindings/embree/rsm.h"
+#include "bindings/embree/surface_samples.h"
+#include "bindings/embree/visible_points.h"
+#include "clv/cpu/build_level.h"
+#include "clv/cpu/evaluate.h"
+#include "clv/cpu/resolution.h"
+#include "clv/cpu/still_lighting.h"
+#include "clv/plan/needs.h"
+
+namespace clv {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
+constexpr std::size_t kFirstRound = 64 << 10;      // rays
+constexpr std::size_t kLargestRound = 512 << 10;   // rays
+constexpr std::size_t kManyRays = 512 << 10;       // from which on the volumes are filled in more pieces
+constexpr std::size_t kJudges = 3000;              // receivers that choose the resolution
+constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
+constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
+constexpr int kMostSweeps = 24;                    // bounces
+constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left to the extrapolation
+constexpr int kTexelWidth = 256;                   // rows of the texel sampler
+
+class StageClock {
+public:
+    template <class Body>
+    void time(const std::string& stage, Body&& body) {
+        const auto begin = Clock::now();
+        body();
+        add(stage, std::chrono::duration<double>(Clock::now() - begin).count());
+    }
+    void add(const std::string& stage, double seconds) {
+        for (auto& [name, sum] : stages) {
+            if (name == stage) {
+                sum += seconds;
+                return;
+            }
+        }
+        stages.emplace_back(stage, seconds);
+    }
+    double of(std::initializer_list<const char*> names) const {
+        double sum = 0.0;
+        for (const auto& [name, seconds] : stages) {
+            if (std::find(names.begin(), names.end(), name) != names.end()) sum += seconds;
+        }
+        return sum;
+    }
+    std::vector<std::pair<std::string, double>> stages;
+};
+
+std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
+    std::vector<ClvReceiver> receivers;
+    receivers.reserve(points.size());
+    for (const ReferencePoint& p : points) receivers.push_back({p.position, 0.0f, p.normal, 0.0f});
+    return receivers;
+}
+
+// All of the scene's lights as one stack of RSM texels.
+class LightTexels {
+public:
+    LightTexels(const EmbreeScene& scene, std::uint32_t seed, const ParallelFor& parallelFor) : scene_(scene), seed_(seed), parallelFor_(parallelFor) {
+        for (const NamedLight& light : scene.scene().lights) {
+            const vec3 i = light.light.intensity;
+            if (std::max(std::max(i.x, i.y), i.z) > 0.0f) lights_.push_back(light.light);
+        }
+        if (lights_.empty()) return;
+        // 256^2 texels a light, fewer where there are many lights.
+        while (side_ > 32 && lights_.size() * side_ * side_ > 8u * 256u * 256u) side_ /= 2;
+        texels_.resize(lights_.size() * side_ * side_);
+    }
+    // Whether any light is on.
+    bool any() const { return !lights_.empty(); }
+
+    void render(std::uint32_t pass, TexelSampler& sampler) {
+        const std::size_t each = std::size_t(side_) * side_;
+        for (std::size_t k = 0; k < lights_.size(); ++k) {
+            renderRsm(scene_, lights_[k], side_, pass, clvHashCombine(seed_, uint(k)), parallelFor_, std::span(texels_).subspan(k * each, each));
+        }
+        sampler.build(texels_, side_, parallelFor_);
+    }
+
+private:
+    const EmbreeScene& scene_;
+    std::uint32_t seed_;
+    const ParallelFor& parallelFor_;
+    std::vector<ClvLight> lights_;
+    int side_ = 256;
+    std::vector<ClvRsmTexel> texels_;
+};
+
+class LightRun {
+public:
+    LightRun(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
+             std::span<const ReferencePoint> points)
+        : scene_(scene), options_(options), seed_(seed), parallelFor_(parallelFor), points_(receiversOf(points)) {
+        automatic_ = options.resolution == 0;
+        report_.channels = needsColour(scene) ? 3 : 1;
+        layout_ = {options.storage, report_.channels};
+        clock_.time("setup", [&] {
+            embree_.emplace(scene);
+            if (!options.proxy.empty()) {
+                proxyScene_ = loadScene(options.proxy);
+                moveTo(*proxyScene_, scene.anchor);
+                proxy_.emplace(*proxyScene_);
+            }
+            if (options.allBounces) surfaces_ = sampleSurfaces(scene, kSurfaceSamples, clvHashCombine(seed, 0x5u));
+            chooseJudges();
+        });
+        texels_.emplace(*embree_, seed, parallelFor);
+    }
+
+    PipelineReport run(std::span<glm::vec3> out) {
+        std::fill(out.begin(), out.end(), glm::vec3(0.0f));
+        if (texels_->any() && !points_.empty()) {
+            firstBounce();
+            evaluate(*lighting_, out);
+            if (options_.allBounces) furtherBounces(out);
+        }
+        report_.stages = clock_.stages;
+        report_.frameSeconds = clock_.of({"rays", "trace", "inject", "merge", "choose", "evaluate"});
+        return std::move(report_);
+    }
+
+private:
+    static bool isGrey(const vec3& v) { return v.x == v.y && v.y == v.z; }
+    static bool needsColour(const Scene& scene) {
+        SceneFacts facts;
+        facts.greyLights = std::all_of(scene.lights.begin(), scene.lights.end(), [](const NamedLight& l) { return isGrey(l.light.intensity); });
+        facts.greySurfaces = std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return isGrey(m.albedo) && m.texture < 0; });
+        return planNeeds(facts).channels == 3;
+    }
+    static void moveTo(Scene& scene, const glm::dvec3& anchor) {
+        const vec3 offset(scene.anchor - anchor);
+        for (vec3& p : scene.positions) p += offset;
+        scene.bounds.lo += offset, scene.bounds.hi += offset;
+        scene.anchor = anchor;
+    }
+
+    // The receivers by which levels are judged: some of the points, and with few of them some that the cameras see.
+    void chooseJudges() {
+        if (!automatic_) return;
+        const std::size_t count = std::min(points_.size(), kJudges);
+        for (std::size_t k = 0; k < count; ++k) judges_.push_back(points_[k * points_.size() / count]);
+        if (count < kFewJudges) {
+            const auto seen = visiblePoints(*embree_, kFewJudges, clvHashCombine(seed_, 0x9u));
+            judges_.insert(judges_.end(), seen.begin(), seen.end());
+        }
+    }
+
+    Level makeLevel(int resolution) {
+        Level level;
+        clock_.time("setup", [&] {
+            const vec3 shift(fract(vec3(float(options_.cellShift[0]), float(options_.cellShift[1]), float(options_.cellShift[2]))));
+            const ClvVolume volume = volumeOverBounds(scene_.bounds.lo, scene_.bounds.hi, resolution, options_.storage, shift);
+            std::vector<std::uint8_t> needed = neededCells(volume, points_);
+            for (const auto* more : {&judges_, &surfaces_.receivers}) {
+                const auto also = neededCells(volume, *more);
+                for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= also[i];
+            }
+            level = buildLevel(volume, embree_->probe(), needed, parallelFor_);
+        });
+        return level;
+    }
+
+    // Cuts rays at the scene that they are meant to meet, and notes what they hit where further bounces need it.
+    Tracer tracer(const std::unique_ptr<StillLighting>& lighting) {
+        return [this, &lighting](std::span<ClvRay> rays) {
+            const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
+            if (!options_.allBounces) return target.trace(rays);
+            const std::size_t offset = rays.data() - lighting->currentRays().data();
+            target.trace(rays, std::span(hits_).subspan(offset, rays.size()));
+        };
+    }
+
+    std::unique_ptr<StillLighting> makeLighting(std::unique_ptr<StillLighting>& self, int halves, std::size_t rays, std::uint32_t stream) {
+        StillLightingSettings settings;
+        settings.layout = layout_;
+        settings.parts.halves = halves;
+        settings.parts.chunks = rays >= kManyRays ? 4 : 2 / halves;
+        settings.seed = clvHashCombine(seed_, stream);
+        settings.originOffset = embree_->surfaceOffset();
+        return std::make_unique<StillLighting>(settings, tracer(self), parallelFor_);
+    }
+
+    void trace(StillLighting& lighting, const TexelSampler& sampler, std::size_t count) {
+        clock_.time("rays", [&] { lighting.rays(sampler, count); });
+        if (options_.allBounces) hits_.resize(std::max(hits_.size(), lighting.currentRays().size()));
+        clock_.time("trace", [&] { lighting.trace(); });
+        report_.rays += lighting.currentRays().size();
+    }
+    void inject(StillLighting& lighting, Volume& volume) {
+        clock_.time("inject", [&] { lighting.inject(volume); });
+        clock_.time("merge", [&] { lighting.merge(volume); });
+    }
+
+    // Power of all rays of the last trace, and what of it the surfaces that they hit send on; W a channel.
+    std::pair<glm::dvec3, glm::dvec3> sentOn(const StillLighting& lighting) const {
+        glm::dvec3 flux(0.0), on(0.0);
+        const auto rays = lighting.currentRays();
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            flux += glm::dvec3(rays[k].flux);
+            if (hits_[k].primitive != 0xffffffffu) on += glm::dvec3(rays[k].flux * hits_[k].albedo);
+        }
+        return {flux / double(rays.size()), on / double(rays.size())};
+    }
+
+    void firstBounce() {
+        const std::uint64_t budget = options_.seconds > 0.0 ? ~std::uint64_t(0) : options_.allBounces ? std::max<std::uint64_t>(options_.rays / 2, 1) : options_.rays;
+        lighting_ = makeLighting(lighting_, automatic_ ? 2 : 1, std::size_t(std::min<std::uint64_t>(budget, kManyRays)), 1);
+        addLevel(automatic_ ? kResolutions[0] : options_.resolution);
+        if (automatic_) addLevel(kResolutions[1]);
+
+        Progress progress("light");
+        TexelSampler sampler;
+        std::uint64_t done = 0;
+        std::size_t round = options_.frames > 1 ? std::size_t((budget + options_.frames - 1) / options_.frames) : kFirstRound;
+        const double timeForThis = options_.allBounces ? 0.5 * options_.seconds : options_.seconds;
+        for (std::uint32_t pass = 0; done < budget; ++pass) {
+            const std::size_t count = std::size_t(std::min<std::uint64_t>(round, budget - done));
+            const double before = progress.seconds();
+            clock_.time("rsm", [&] { texels_->render(pass, sampler); });
+            if (sampler.empty()) return;
+            trace(*lighting_, sampler, count);
+            for (Volume& volume : lighting_->volumes()) inject(*lighting_, volume);
+            done += count;
+            if (options_.allBounces) {
+                const auto [flux, on] = sentOn(*lighting_);
+                sent_ += flux * double(count), sentOn_ += on * double(count);
+            }
+            const double now = progress.seconds();
+            // With a budget of time, as many rays are still to come as the pace so far promises.
+            const double target = options_.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
+            if (automatic_) judge(target);
+            if (options_.seconds > 0.0 && now + (now - before) > timeForThis) break;
+            progress.update(options_.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
+            if (options_.frames <= 1) round = std::min(2 * round, kLargestRound);
+        }
+        sent_ /= double(done), sentOn_ /= double(done);
+        for (const Volume& volume : lighting_->volumes()) report_.bytes += volume.bytes(), report_.slots += volume.level().slots.size();
+        for (std::size_t l = 0; l < resolutions_.size(); ++l) {
+            if (mix_[l] > 0.0) report_.levels.emplace_back(resolutions_[l], mix_[l]);
+        }
+    }
+
+    void addLevel(int resolution) {
+        Level level = makeLevel(resolution);
+        clock_.time("setup", [&] { lighting_->addLevel(std::move(level)); });
+        resolutions_.push_back(resolution);
+        mix_ = {};
+        mix_[resolutions_.size() - 1] = 1.0;
+    }
+
+    // Chooses the levels to show when all rays are in, lets a finer level join while the finest one is the best, and drops coarse ones
+    // that no longer count.
+    void judge(double targetRays) {
+        for (;;) {
+            std::vector<double> factor;
+            clock_.time("choose", [&] {
+                estimates_.resize(resolutions_.size());
+                for (std::size_t l = 0; l < resolutions_.size(); ++l) {
+                    const Volume& volume = lighting_->volumes()[l];
+                    estimate(volume, estimates_[l]);
+                    // A level that joined late has missed the rays before it.
+                    const double missed = double(report_.rays) - volume.rays();
+                    factor.push_back(std::max(1.0, (targetRays - missed) / volume.rays()));
+                }
+                mix_ = chooseLevels(estimates_, factor);
+            });
+            const LevelErrors later = judgeLevels(estimates_).withRays(factor);
+            const bool finestWins = bestLevel(later) == later.count - 1;
+            const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), resolutions_.back());
+            if (!finestWins || next == std::end(kResolutions)) break;
+            addLevel(*next);
+            inject(*lighting_, lighting_->volumes().back());
+        }
+        while (resolutions_.size() > 2 && mix_[0] == 0.0 && mix_[1] == 0.0) {
+            lighting_->removeFirstLevel();
+            resolutions_.erase(resolutions_.begin());
+            std::rotate(mix_.begin(), mix_.begin() + 1, mix_.end());
+        }
+    }
+
+    void estimate(const Volume& volume, HalfEstimates& estimates) const {
+        for (auto& half : estimates.half) half.resize(judges_.size());
+        forReceivers(judges_.size(), [&](std::size_t i, SlotWeights& weights) {
+            lookupWeights(volume.level(), judges_[i], {}, weights);
+            const ClvCoefficients read = clvReadCoefficients(options_.storage, judges_[i].normal);
+            for (int half = 0; half < 2; ++half) estimates.half[half][i] = readIrradiance(layout_, volume.history(half), weights, read);
+        });
+    }
+
+    template <class Body>
+    void forReceivers(std::size_t count, Body&& body) const {
+        constexpr std::size_t kPiece = 256;
+        parallelFor_((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
+            SlotWeights weights;
+            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i, weights);
+        });
+    }
+
+    // The chosen levels, mixed: E at receivers is added to `sum`, times `scale`.
+    void read(const StillLighting& lighting, std::span<const ClvReceiver> receivers, float scale, std::span<glm::vec3> sum) const {
+        forReceivers(receivers.size(), [&](std::size_t i, SlotWeights& weights) {
+            const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, receivers[i].normal);
+            for (std::size_t l = 0; l < lighting.volumes().size(); ++l) {
+                if (mix_[l] == 0.0) continue;
+                const Volume& volume = lighting.volumes()[l];
+                lookupWeights(volume.level(), receivers[i], {}, weights);
+                const int halves = volume.parts().halves;
+                for (int half = 0; half < halves; ++half) {
+                    sum[i] += readIrradiance(layout_, volume.history(half), weights, coefficients) * (scale * float(mix_[l]) / float(halves));
+                }
+            }
+        });
+    }
+    void evaluate(const StillLighting& lighting, std::span<glm::vec3> out, float scale = 1.0f) {
+        clock_.time("evaluate", [&] { read(lighting, points_, scale, out); });
+    }
+
+    // Surfaces send on what the volume says they receive; the sum over the surfaces is set to what the rays brought there, so that no
+    // error of the volume's total grows from bounce to bounce.
+    bool emitFrom(const StillLighting& lighting, const glm::dvec3& power, TexelSampler& sampler) {
+        bool any = false;
+        clock_.time("rsm", [&] {
+            std::vector<glm::vec3> irradiance(surfaces_.receivers.size(), glm::vec3(0.0f));
+            read(lighting, surfaces_.receivers, 1.0f, irradiance);
+            emitters_.resize((irradiance.size() + kTexelWidth - 1) / kTexelWidth * kTexelWidth);
+            glm::dvec3 sum(0.0);
+            for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces_.albedo[k] * irradiance[k]) * double(surfaces_.area);
+            vec3 correction(0.0f);
+            for (int c = 0; c < 3; ++c) correction[c] = sum[c] > 0.0 ? float(power[c] / sum[c]) : 0.0f;
+            for (std::size_t k = 0; k < irradiance.size(); ++k) {
+                const vec3 flux = surfaces_.albedo[k] * irradiance[k] * (correction * surfaces_.area);
+                emitters_[k] = {surfaces_.receivers[k].position, 0.0f, surfaces_.receivers[k].normal, 1u, flux, 0.0f};
+                any = any || flux.x + flux.y + flux.z > 0.0f;
+            }
+            sampler.build(emitters_, kTexelWidth, parallelFor_);
+        });
+        return any;
+    }
+
+    static double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
+
+    void furtherBounces(std::span<glm::vec3> out) {
+        Progress progress("bounces");
+        // The power that goes from bounce to bounce falls by about this factor.
+        double ratio = total(sent_) > 0.0 ? total(sentOn_) / total(sent_) : 0.0;
+        glm::dvec3 power = sentOn_;
+        const double first = total(power);
+        const double expected = std::clamp(ratio, 0.02, 0.98);
+        const double spread = (1.0 - std::pow(expected, kMostSweeps - 1)) / (1.0 - expected);
+        const double budget = options_.seconds > 0.0 ? double(report_.rays) : double(options_.rays - std::min(options_.rays, report_.rays));
+        // Two sets of volumes in turn: one is read while the other is filled.
+        std::unique_ptr<StillLighting> pair[2];
+        const StillLighting* source = lighting_.get();
+        TexelSampler sampler;
+        for (int sweep = 2; sweep <= kMostSweeps; ++sweep) {
+            const double left = ratio < 1.0 ? total(power) / (1.0 - ratio) : total(power);
+            if (!(total(power) > 0.0) || left < kNegligible * first) return;
+            if (!emitFrom(*source, power, sampler)) return;
+            std::unique_ptr<StillLighting>& target = pair[sweep % 2];
+            const std::size_t count = std::max<std::size_t>(1, std::size_t(budget * std::pow(expected, sweep - 2) / spread));
+            if (!target) {
+                target = makeLighting(target, 1, count, 0x100u);
+                for (const Volume& volume : lighting_->volumes()) target->addLevel(volume.level());
+            }
+            for (Volume& volume : target->volumes()) volume.reset();
+            for (std::size_t done = 0; done < count;) {
+                const std::size_t round = std::min(count - done, kLargestRound);
+                trace(*target, sampler, round);
+                for (std::size_t l = 0; l < target->volumes().size(); ++l) {
+                    if (mix_[l] > 0.0) inject(*target, target->volumes()[l]);
+                }
+                const auto [flux, on] = sentOn(*target);
+                nextPower_ = done == 0 ? on : (nextPower_ * double(done) + on * double(round)) / double(done + round);
+                done += round;
+            }
+            report_.sweeps = std::uint32_t(sweep);
+            ratio = total(nextPower_) / total(power);
+            // Behind the last sweep every further one has about the same shape, fainter by the ratio: a geometric series.
+            const bool last = sweep == kMostSweeps || total(nextPower_) < kNegligible * (1.0 - std::min(ratio, 0.999)) * first;
+            float scale = 1.0f;
+            if (last && ratio < kLargestRatio) scale = float(1.0 / (1.0 - ratio));
+            if (last && ratio >= kLargestRatio) {
+                report_.warnings.push_back(fmt::format(
+                    "bounce {} still carries {:.4f} of the power of the one before: surfaces reflect all light and nothing absorbs it, so "
+                    "there is no finite answer; what is given is the light of the first {} bounces",
+                    sweep, ratio, sweep));
+            }
+            evaluate(*target, out, scale);
+            if (last) return;
+            power = nextPower_;
+            source = target.get();
+            progress.update(1.0 - total(power) / first);
+        }
+    }
+
+    // Above this ratio from bounce to bounce the sum has no stable limit.
+    static constexpr double kLargestRatio = 0.9995;
+
+    const Scene& scene_;
+    const LightOptions& options_;
+    std::uint32_t seed_;
+    const ParallelFor& parallelFor_;
+    std::vector<ClvReceiver> points_, judges_;
+    bool automatic_;
+    DepositLayout layout_;
+    StageClock clock_;
+    PipelineReport report_;
+    std::optional<EmbreeScene> embree_, proxy_;
+    std::optional<Scene> proxyScene_;
+    std::optional<LightTexels> texels_;
+    SurfaceSamples surfaces_;
+    std::unique_ptr<StillLighting> lighting_;
+    std::vector<int> resolutions_;
+    LevelMix mix_{};
+    std::vector<HalfEstimates> estimates_;
+    std::vector<ClvHit> hits_;
+    std::vector<ClvRsmTexel> emitters_;
+    glm::dvec3 sent_{0.0}, sentOn_{0.0}, nextPower_{0.0};
+};
+
+}  // namespace
+
+PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
+                           std::span<const ReferencePoint> points, std::span<glm::vec3> out) {
+    return LightRun(scene, options, seed, parallelFor, points).run(out);
+}
+
+void reportLight(const PipelineReport& run, Report& report) {
+    Report levels = Report::array();
+    for (const auto& [resolution, weight] : run.levels) levels.push_back({{"resolution", resolution}, {"weight", weight}});
+    report["levels"] = levels;
+    report["rays"] = run.rays;
+    report["sweeps"] = run.sweeps;
+    report["channels"] = run.channels;
+    report["slots"] = run.slots;
+    report["bytes"] = run.bytes;
+    Report stages = Report::object();
+    for (const auto& [name, seconds] : run.stages) stages[name + "_ms"] = 1e3 * seconds;
+    report["stages"] = stages;
+    report["frame_ms"] = 1e3 * run.frameSeconds;
+    if (!run.warnings.empty()) report["warnings"] = run.warnings;
+    for (const std::string& warning : run.warnings) fmt::print(stderr, "clv: {}\n", warning);
+}
+
+}  // namespace clv

@@ -1,0 +1,153 @@
+// Which level, or which mix of levels, errs least: judged without a truth, by two independent halves of the rays.
+//
+// Level l gives the estimates A_l and B_l at the same receivers, from the two halves. Their mean is what is shown, and
+//   noise:  E[(A_l - B_l) (A_m - B_m)] / 4            is the covariance of the shown values of levels l and m,
+//   bias:   E[(A_l - A_f) (B_m - B_f)]                is the product of their biases against the finest level f; A and B are
+//                                                     independent, so noise does not enter it.
+// The mean squared error of sum(c_l * level l) with sum(c) = 1 is c' (bias + noise) c. With more rays of the same kind the noise falls
+// as their number, so errors can be foretold.
+//
+// One level is chosen by its own figure. A mix has more freedom to follow the noise of the judgement itself, so it is taken only if
+// it also wins on receivers that had no part in finding it.
+#ifndef CLV_CPU_RESOLUTION_H
+#define CLV_CPU_RESOLUTION_H
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "../lang.h"
+
+namespace clv {
+
+inline constexpr int kMostLevels = 6;
+
+// What one level says at the receivers, W/m^2.
+struct HalfEstimates {
+    std::vector<vec3> half[2];
+};
+
+// Symmetric matrices over the levels, coarse to fine, (W/m^2)^2, means over receivers and channels.
+struct LevelErrors {
+    int count = 0;
+    std::array<std::array<double, kMostLevels>, kMostLevels> noise{}, bias{};
+
+    double meanSquare(std::span<const double> mix) const {
+        double sum = 0.0;
+        for (int l = 0; l < count; ++l)
+            for (int m = 0; m < count; ++m) sum += mix[l] * mix[m] * (bias[l][m] + noise[l][m]);
+        return sum;
+    }
+    double meanSquare(int level) const { return bias[level][level] + noise[level][level]; }
+
+    // The same, if level l had factor[l] times as many rays.
+    LevelErrors withRays(std::span<const double> factor) const {
+        LevelErrors later = *this;
+        for (int l = 0; l < count; ++l)
+            for (int m = 0; m < count; ++m) later.noise[l][m] /= std::sqrt(factor[l] * factor[m]);
+        return later;
+    }
+};
+
+// Levels coarse to fine; all hold as many receivers. Only receivers first, first + step, ... take part.
+inline LevelErrors judgeLevels(std::span<const HalfEstimates> levels, std::size_t first = 0, std::size_t step = 1) {
+    LevelErrors errors;
+    errors.count = int(levels.size());
+    const HalfEstimates& finest = levels.back();
+    const std::size_t receivers = finest.half[0].size();
+    const double scale = double(step) / (3.0 * double(std::max<std::size_t>(receivers, 1)));
+    for (int l = 0; l < errors.count; ++l) {
+        for (int m = l; m < errors.count; ++m) {
+            double noise = 0.0, bias = 0.0;
+            for (std::size_t i = first; i < receivers; i += step) {
+                const vec3 a = levels[l].half[0][i], b = levels[l].half[1][i], c = levels[m].half[0][i], d = levels[m].half[1][i];
+                noise += dot(a - b, c - d);
+                // Both ways round, so that the matrix is symmetric.
+                bias += dot(a - finest.half[0][i], d - finest.half[1][i]) + dot(b - finest.half[1][i], c - finest.half[0][i]);
+            }
+            errors.noise[l][m] = errors.noise[m][l] = 0.25 * noise * scale;
+            errors.bias[l][m] = errors.bias[m][l] = 0.5 * bias * scale;
+        }
+    }
+    return errors;
+}
+
+namespace detail {
+
+// Solves the symmetric system m x = 1 over the levels in `subset` by Gaussian elimination and scales x to sum 1. False if singular.
+inline bool solveMix(const LevelErrors& errors, unsigned subset, std::array<double, kMostLevels>& mix) {
+    int index[kMostLevels], n = 0;
+    for (int l = 0; l < errors.count; ++l) {
+        if (subset >> l & 1u) index[n++] = l;
+    }
+    double a[kMostLevels][kMostLevels + 1];
+    for (int r = 0; r < n; ++r) {
+        for (int c = 0; c < n; ++c) a[r][c] = errors.bias[index[r]][index[c]] + errors.noise[index[r]][index[c]];
+        a[r][n] = 1.0;
+    }
+    for (int k = 0; k < n; ++k) {
+        int pivot = k;
+        for (int r = k + 1; r < n; ++r) {
+            if (std::abs(a[r][k]) > std::abs(a[pivot][k])) pivot = r;
+        }
+        if (!(std::abs(a[pivot][k]) > 1e-300)) return false;
+        for (int c = 0; c <= n; ++c) std::swap(a[k][c], a[pivot][c]);
+        for (int r = 0; r < n; ++r) {
+            if (r == k) continue;
+            const double factor = a[r][k] / a[k][k];
+            for (int c = k; c <= n; ++c) a[r][c] -= factor * a[k][c];
+        }
+    }
+    double sum = 0.0;
+    mix.fill(0.0);
+    for (int k = 0; k < n; ++k) sum += mix[index[k]] = a[k][n] / a[k][k];
+    if (!(std::abs(sum) > 1e-300)) return false;
+    for (double& w : mix) w /= sum;
+    return true;
+}
+
+}  // namespace detail
+
+using LevelMix = std::array<double, kMostLevels>;
+
+// The mix of levels with weights >= 0 that errs least. Weights sum to 1.
+inline LevelMix bestMix(const LevelErrors& errors) {
+    LevelMix best{};
+    double least = 1e300;
+    for (unsigned subset = 1; subset < (1u << errors.count); ++subset) {
+        LevelMix mix;
+        if (!detail::solveMix(errors, subset, mix)) continue;
+        if (std::any_of(mix.begin(), mix.end(), [](double w) { return w < 0.0; })) continue;
+        const double error = errors.meanSquare(mix);
+        if (error < least) least = error, best = mix;
+    }
+    if (least == 1e300) best[errors.count - 1] = 1.0;  // no light at all
+    return best;
+}
+
+inline int bestLevel(const LevelErrors& errors) {
+    int best = 0;
+    for (int l = 1; l < errors.count; ++l) {
+        if (errors.meanSquare(l) < errors.meanSquare(best)) best = l;
+    }
+    return best;
+}
+
+// What to show: the best level, or the best mix where that is better by a clear margin. `factor`: see LevelErrors::withRays.
+inline LevelMix chooseLevels(std::span<const HalfEstimates> levels, std::span<const double> factor) {
+    constexpr double kClearGain = 0.1;  // of the mean squared error
+    const LevelErrors all = judgeLevels(levels).withRays(factor);
+    const LevelErrors parts[2] = {judgeLevels(levels, 0, 2).withRays(factor), judgeLevels(levels, 1, 2).withRays(factor)};
+    LevelMix single{};
+    single[bestLevel(all)] = 1.0;
+    double mixed = 0.0, alone = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        mixed += parts[1 - k].meanSquare(bestMix(parts[k]));
+        alone += parts[1 - k].meanSquare(single);
+    }
+    return mixed < (1.0 - kClearGain) * alone ? bestMix(all) : single;
+}
+
+}  // namespace clv
+#endif
