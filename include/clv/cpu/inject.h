@@ -1,7 +1,8 @@
 // Inject on the CPU: rays into the deposits of one level, packet by packet.
 #ifndef CLV_CPU_INJECT_H
 #define CLV_CPU_INJECT_H
-#include <cstring>
+#include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "packet_walk.h"
@@ -17,10 +18,10 @@ struct DepositTarget {
 
 namespace detail {
 
-// What each of up to 16 rays adds per metre: flux * f_k, in the order of the record.
+// What each of up to 16 rays adds per metre: flux * f_k, in the order of the record. What pads a record stays 0.
 struct PacketDeposits {
-    alignas(64) float value[kPacketLanes][32];
-    alignas(64) float dynamicity[kPacketLanes][8];  // a side each: the ray's, on the sides that it lights
+    alignas(64) float value[kPacketLanes][32] = {};
+    alignas(64) float dynamicity[kPacketLanes][8] = {};  // a side each: the ray's, on the sides that it lights
 };
 
 inline bool finiteRay(const ClvRay& ray) {
@@ -33,9 +34,11 @@ inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> 
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ClvRay& ray = rays[i];
         float* value = out.value[i];
-        std::memset(value, 0, sizeof out.value[i]);
-        std::memset(out.dynamicity[i], 0, sizeof out.dynamicity[i]);
-        if (!finiteRay(ray)) continue;  // such a ray adds nothing
+        if (!finiteRay(ray)) {  // such a ray adds nothing
+            std::fill(std::begin(out.value[i]), std::end(out.value[i]), 0.0f);
+            std::fill(std::begin(out.dynamicity[i]), std::end(out.dynamicity[i]), 0.0f);
+            continue;
+        }
         const ClvCoefficients c = clvDepositCoefficients(layout.storage, ray.direction);
         const float f[9] = {c.a.x, c.a.y, c.a.z, c.a.w, c.b.x, c.b.y, c.b.z, c.b.w, c.c};
         if (layout.channels == 1) {
@@ -57,18 +60,36 @@ inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> 
     }
 }
 
+// Starts to fetch the cache line of `p`, to be written.
+inline void prefetch([[maybe_unused]] const float* p) {
+#if defined(__GNUC__)
+    __builtin_prefetch(p, 1);
+#endif
+}
+
 template <int Stride>
 inline void depositCrossings(const Level& level, std::span<const ClvRay> rays, const PacketDeposits& packet, CrossingBuffer& buffer,
                              const DepositTarget& target) {
     float* deposits = target.deposits.data();
     float* dynamicity = target.dynamicity.empty() ? nullptr : target.dynamicity.data();
-    for (int k = 0; k < buffer.count; ++k) {
-        uint slot = buffer.entry[k];
-        const uint lane = buffer.lane[k];
+    // Deposits that the caches near a core do not hold: only then is it worth the instructions to fetch them ahead.
+    const bool far = target.deposits.size_bytes() > (std::size_t(2) << 20);
+    auto prepare = [&](int k) {
+        uint& slot = buffer.entry[k];
         if (slot & kClvSplitBit) [[unlikely]] {
-            const ClvRay& ray = rays[lane];
+            const ClvRay& ray = rays[buffer.lane[k]];
             slot = slotAtPosition(level, slot, ray.origin + ray.direction * buffer.middle[k]);
         }
+        if (!far) return;
+        const float* record = deposits + std::size_t(slot) * Stride;
+        for (int line = 0; line < Stride; line += 16) prefetch(record + line);
+    };
+    // How many crossings ahead a record is fetched: enough to hide the way to memory.
+    constexpr int kAhead = 32;
+    for (int k = 0; k < std::min(kAhead, buffer.count); ++k) prepare(k);
+    for (int k = 0; k < buffer.count; ++k) {
+        if (k + kAhead < buffer.count) prepare(k + kAhead);
+        const uint slot = buffer.entry[k], lane = buffer.lane[k];
         const float weight = buffer.weight[k];
         float* __restrict record = deposits + std::size_t(slot) * Stride;
         const float* __restrict add = packet.value[lane];

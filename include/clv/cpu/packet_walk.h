@@ -3,6 +3,7 @@
 #ifndef CLV_CPU_PACKET_WALK_H
 #define CLV_CPU_PACKET_WALK_H
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #if defined(__AVX512F__)
@@ -93,7 +94,7 @@ struct AxisWalk {
     __m512 origin, inverse, boundary, boundaryStep, direction;
     __m512i cell, cellStep;  // storage coordinate, already multiplied by the axis' stride in the cell table
     __m512i wrapAt, wrapBy;  // a coordinate that reaches wrapAt goes on at wrapAt + wrapBy
-    __mmask16 parallel;
+    __mmask16 parallel, finite;
     __m512 slabLo, slabHi;
 
     // Follows clvWalkInverse and clvWalkSlab.
@@ -101,6 +102,8 @@ struct AxisWalk {
         const __m512 zero = _mm512_setzero_ps(), one = _mm512_set1_ps(1.0f);
         direction = dir;
         origin = _mm512_mul_ps(_mm512_sub_ps(originMetres, _mm512_set1_ps(lowest)), _mm512_set1_ps(scale));
+        const __m512 largest = _mm512_set1_ps(std::numeric_limits<float>::max());
+        finite = _mm512_cmp_ps_mask(_mm512_abs_ps(origin), largest, _CMP_LE_OQ) & _mm512_cmp_ps_mask(_mm512_abs_ps(dir), largest, _CMP_LE_OQ);
         parallel = _mm512_cmp_ps_mask(_mm512_abs_ps(dir), _mm512_set1_ps(kClvParallel), _CMP_NGT_UQ);
         inverse = _mm512_mask_blend_ps(parallel, _mm512_div_ps(one, dir), one);
         const __m512 top = _mm512_set1_ps(size);
@@ -117,7 +120,7 @@ struct AxisWalk {
     void enter(__m512 t, int resolution, int scroll, int stride) {
         const __m512 zero = _mm512_setzero_ps(), one = _mm512_set1_ps(1.0f);
         __m512 p = _mm512_floor_ps(_mm512_add_ps(origin, _mm512_mul_ps(direction, t)));
-        p = _mm512_min_ps(_mm512_max_ps(p, zero), _mm512_set1_ps(float(resolution - 1)));
+        p = _mm512_min_ps(_mm512_set1_ps(float(resolution - 1)), _mm512_max_ps(p, zero));
         const __mmask16 up = _mm512_cmp_ps_mask(direction, zero, _CMP_GT_OQ);
         boundary = _mm512_mask_blend_ps(parallel, _mm512_mask_add_ps(p, up, p, one), _mm512_set1_ps(kClvNever));
         boundaryStep = _mm512_mask_blend_ps(up, _mm512_set1_ps(-1.0f), one);
@@ -152,14 +155,16 @@ void walkPacketAvx512(const Level& level, uint rule, std::span<const ClvRay> ray
     y.begin(origin.y, direction.y, v.origin.y, scale, float(v.resolution.y));
     z.begin(origin.z, direction.z, v.origin.z, scale, float(v.resolution.z));
     const __m512 zero = _mm512_setzero_ps();
-    // Operands are ordered so that a NaN gives what GLM's min and max give.
+    // Operands are ordered so that NaN and zeros of either sign give what GLM's min and max give.
     const __m512 tBegin = _mm512_max_ps(_mm512_max_ps(zero, z.slabLo), _mm512_max_ps(y.slabLo, x.slabLo));
-    const __m512 limit = _mm512_mul_ps(selectAxis(rays, &ClvRay::maxDistance), _mm512_set1_ps(scale));
+    const __m512 maxDistance = selectAxis(rays, &ClvRay::maxDistance);
+    const __m512 limit = _mm512_mul_ps(maxDistance, _mm512_set1_ps(scale));
     const __m512 tEnd = _mm512_min_ps(_mm512_min_ps(limit, z.slabHi), _mm512_min_ps(y.slabHi, x.slabHi));
     x.enter(tBegin, v.resolution.x, v.scroll.x, 1);
     y.enter(tBegin, v.resolution.y, v.scroll.y, v.resolution.x);
     z.enter(tBegin, v.resolution.z, v.scroll.z, v.resolution.x * v.resolution.y);
-    __mmask16 active = _mm512_cmp_ps_mask(tEnd, tBegin, _CMP_GT_OQ) & __mmask16((1u << rays.size()) - 1u);
+    __mmask16 active = __mmask16((1u << rays.size()) - 1u) & x.finite & y.finite & z.finite &
+                       _mm512_cmp_ps_mask(maxDistance, zero, _CMP_GT_OQ) & _mm512_cmp_ps_mask(tEnd, tBegin, _CMP_GT_OQ);
     __mmask16 start = _mm512_cmp_ps_mask(tBegin, zero, _CMP_EQ_OQ);
     if (rule != kClvInjectThesis) start = 0;
     __m512 t = tBegin;
@@ -170,8 +175,8 @@ void walkPacketAvx512(const Level& level, uint rule, std::span<const ClvRay> ray
     const int* table = reinterpret_cast<const int*>(level.table.data());
     while (active) {
         const __m512 nx = x.next(), ny = y.next(), nz = z.next();
-        const __m512 nearest = _mm512_min_ps(_mm512_min_ps(nx, ny), nz);
-        const __m512 tNext = _mm512_max_ps(_mm512_min_ps(nearest, tEnd), t);
+        const __m512 nearest = _mm512_min_ps(nz, _mm512_min_ps(ny, nx));
+        const __m512 tNext = _mm512_max_ps(t, _mm512_min_ps(tEnd, nearest));
         const __m512i cell = _mm512_add_epi32(_mm512_add_epi32(x.cell, y.cell), z.cell);
         const __m512i entry = _mm512_mask_i32gather_epi32(none, active, cell, table, 4);
         const __m512 weight = rule == kClvInjectThesis ? _mm512_mask_blend_ps(start, one, zero)

@@ -8,6 +8,7 @@
 #include "../data/cell.h"
 #include "../data/light_volume.h"
 #include "../data/ray.h"
+#include "../math/finite.h"
 CLV_NAMESPACE_BEGIN
 
 // The track-length estimator, or the rule of Brattén and Lindén (2013, section 3.4): each crossed cell but the first gets
@@ -57,7 +58,7 @@ CLV_FN float clvWalkFirstBoundary(float direction, int cell) {
     return float(direction > 0.0f ? cell + 1 : cell);
 }
 
-// Begins the walk of a ray; one that misses the grid, is dead or is not finite gives a walk that is over.
+// Begins the walk of a ray; one that misses the grid, is dead or not finite gives a walk that is over. Its length may be endless.
 CLV_FN ClvWalk clvWalkBegin(ClvVolume volume, ClvRay ray) {
     ClvWalk walk;
     float scale = 1.0f / volume.cellSize;
@@ -71,12 +72,13 @@ CLV_FN ClvWalk clvWalkBegin(ClvVolume volume, ClvRay ray) {
     walk.t = tBegin;
     vec3 p = floor(walk.origin + ray.direction * tBegin);
     vec3 last = vec3(float(volume.resolution.x - 1), float(volume.resolution.y - 1), float(volume.resolution.z - 1));
-    p = clamp(p, vec3(0.0f, 0.0f, 0.0f), last);
+    p = min(max(vec3(0.0f, 0.0f, 0.0f), p), last);  // in this order NaN becomes 0
     walk.cell = ivec3(int(p.x), int(p.y), int(p.z));
     walk.boundary = vec3(clvWalkFirstBoundary(ray.direction.x, walk.cell.x), clvWalkFirstBoundary(ray.direction.y, walk.cell.y),
                          clvWalkFirstBoundary(ray.direction.z, walk.cell.z));
     walk.first = tBegin == 0.0f ? 1.0f : 0.0f;
-    walk.running = walk.tEnd > tBegin ? 1 : 0;
+    bool finite = clvIsFinite(walk.origin) && clvIsFinite(ray.direction);
+    walk.running = finite && ray.maxDistance > 0.0f && walk.tEnd > tBegin ? 1 : 0;
     return walk;
 }
 
