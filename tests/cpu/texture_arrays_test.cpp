@@ -31,7 +31,7 @@ void fillHistory(Volume& volume) {
 }
 
 Volume filledVolume(Level level, const DepositLayout& layout) {
-    Volume volume(std::move(level), layout, {.halves = 2, .chunks = 1}, false);
+    Volume volume(std::move(level), layout, {.halves = 2, .chunks = 1});
     fillHistory(volume);
     return volume;
 }

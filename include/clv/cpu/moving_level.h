@@ -119,7 +119,6 @@ private:
         slotPool_.giveBack(slots.first, slots.count);
         if (entry & kClvSplitBit) splitPool_.giveBack(entry & ~kClvSplitBit, splitsBelow(entry));
         entry = kClvNoSlot;
-        sketch_.cut[cell] = 0;
     }
 
     void store(uint cell, bool cut, std::span<const OpenRegion> regions, std::span<const RegionSplit> splits) {

@@ -18,9 +18,9 @@ struct VolumeParts {
 
 class Volume {
 public:
-    Volume(Level level, const DepositLayout& layout, const VolumeParts& parts, bool withDynamicity = false)
+    Volume(Level level, const DepositLayout& layout, const VolumeParts& parts)
         : level_(std::move(level)), layout_(layout), parts_(parts), partials_(std::size_t(parts.halves) * parts.chunks), history_(parts.halves) {
-        for (PartialVolume& partial : partials_) partial.resize(level_.slots.size(), layout_, withDynamicity);
+        for (PartialVolume& partial : partials_) partial.resize(level_.slots.size(), layout_, false);
         for (AlignedFloats& half : history_) half.resize(level_.slots.size() * layout_.stride());
     }
 

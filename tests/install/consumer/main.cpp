@@ -31,7 +31,7 @@ int main() {
     empty.findRegions = false;
     clv::StillLightingSettings settings;
     settings.layout = {clv::kClvStorageCube, 1};
-    clv::Volume light(clv::buildLevel(volume, {}, {}, clv::serialFor(), empty), settings.layout, settings.parts, false);
+    clv::Volume light(clv::buildLevel(volume, {}, {}, clv::serialFor(), empty), settings.layout, settings.parts);
     clv::ClvRay ray = clv::clvDeadRay();
     ray.origin = clv::vec3(2.0f, 0.5f, 0.5f);
     ray.maxDistance = 2.0f;
