@@ -123,6 +123,48 @@ TEST(MovingLighting, newCellsOfTheLastCascadeStartFromWhatSlidOut) {
     EXPECT_LT(guessed, blank / 1.3);
 }
 
+TEST(MovingLighting, newCellsHaveNoHistoryWhereThereIsNothingToGuessFrom) {
+    const LitHall hall;
+    MovingLighting lighting(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-6.0, -1.5, 1.0));
+    lighting.moveTo(viewFrom(-3.0, -1.5, 1.0));
+    for (const MovingVolume& volume : lighting.volumes()) {
+        EXPECT_EQ(*std::max_element(volume.frames().begin(), volume.frames().end()), 0.0f);
+        EXPECT_EQ(*std::max_element(volume.history().begin(), volume.history().end()), 0.0f);
+    }
+}
+
+TEST(MovingLighting, newCellsForgetTheirGuessFasterWhereDynamicityIsKept) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.movingLights = true;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-6.0, -1.5, 1.0));
+    const int before = 40, after = 10;
+    for (int frame = 0; frame < before; ++frame) hall.frame(lighting, 100);
+    lighting.moveTo(viewFrom(-3.0, -1.5, 1.0));
+    for (int frame = 0; frame < after; ++frame) hall.frame(lighting, 100);
+    // A frame's weight is 1 / (frames that the history stands for). Cells that stayed: the mean of all frames. New ones: decay at
+    // the rate of their dynamicity, which is linear in it and has worn off a little.
+    const MovingVolume& volume = lighting.volumes()[0];
+    ClvMergeSettings merge = settings.merge;
+    const float dynamicity = settings.newCellDynamicity * std::exp(-float(after) * merge.timestep / merge.dynamicityTime);
+    const float raised = 1.0f / clvMergeAlpha(merge, dynamicity);
+    ASSERT_LT(raised, settings.guessFrames + float(after));
+    std::size_t stayed = 0, renewed = 0;
+    const Level& level = volume.level();
+    for (const uint entry : level.table) {
+        if (entry == kClvNoSlot) continue;
+        const uint slot = slotsOfCell(level, entry).first;
+        const bool isNew = level.slots[slot].openCentroid.x > -1.0f;
+        const float expected = isNew ? raised : float(before + after);
+        EXPECT_NEAR(volume.frames()[slot], expected, 1e-3f * expected);
+        ++(isNew ? renewed : stayed);
+    }
+    EXPECT_GT(stayed, 1000u);
+    EXPECT_GT(renewed, 500u);
+}
+
 // Frames until 90 % of a step in the light shows, or `most`.
 int framesToFollow(bool movingLights, int most) {
     LitHall hall;
@@ -205,6 +247,9 @@ TEST(MovingLighting, cullsRaysWithoutAnyEffectOnWhatIsInjected) {
     const auto dead = std::count_if(fewer.all().begin(), fewer.all().end(), [](const ClvRay& ray) { return ray.maxDistance == 0.0f; });
     EXPECT_GT(dead, 5000);
     EXPECT_LT(dead, 19000);
+    lighting.rays(hall.sampler, 20000);
+    EXPECT_TRUE(std::equal(fewer.all().begin(), fewer.all().end(), lighting.currentRays().begin(),
+                           [](const ClvRay& a, const ClvRay& b) { return a.maxDistance == b.maxDistance && a.flux == b.flux; }));
     all.trace(hall.tracer(), serialFor());
     fewer.trace(hall.tracer(), serialFor());
     const DepositLayout layout;

@@ -168,7 +168,8 @@ private:
         const float openVolume = level().slots[slot].openVolume;
         for (std::size_t j = 0; j < stride; ++j) history_.deposits[slot * stride + j] = guess[1 + j] * openVolume;
         if (!settings_.movingLights) return;
-        std::fill_n(history_.dynamicity.begin() + std::ptrdiff_t(slot * kSides), kSides, settings_.newCellDynamicity);
+        const float dynamicity = frames_[slot] > 0.0f ? settings_.newCellDynamicity : 0.0f;
+        std::fill_n(history_.dynamicity.begin() + std::ptrdiff_t(slot * kSides), kSides, dynamicity);
     }
 
     // The largest dynamicity of a slot's sides.
