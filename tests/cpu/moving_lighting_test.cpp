@@ -291,6 +291,26 @@ TEST(MovingLighting, isTheSameToTheLastBitWhateverTheThreads) {
     }
 }
 
+TEST(MovingLighting, isTheSameToTheLastBitAThousandKilometresFromTheOrigin) {
+    const LitHall hall;
+    MovingLightingSettings near = twoCascades(), far = near;
+    // A whole number of times the size of both cascades, so that cells lie in the same places in memory.
+    far.anchor = {1e6, -1.6e6, 2e6};
+    MovingLighting a(near, hall.scene.probe(), hall.tracer(), serialFor()), b(far, hall.scene.probe(), hall.tracer(), serialFor());
+    for (int step = 0; step < 4; ++step) {
+        const CameraView view = viewFrom(-3.0 + 0.7 * step, -1.0, 0.4 * step);
+        CameraView farView = view;
+        farView.position += far.anchor;
+        a.moveTo(view);
+        b.moveTo(farView);
+        hall.frame(a, 3000);
+        hall.frame(b, 3000);
+    }
+    const auto receivers = floorAround(vec3(-2.0f, 0.0f, 0.0f), 3.0f);
+    EXPECT_GT(meanOf(irradianceAt(a, receivers)).x, 0.0f);
+    EXPECT_EQ(irradianceAt(a, receivers), irradianceAt(b, receivers));
+}
+
 TEST(MovingLighting, forgetsAllLightOnReset) {
     const LitHall hall;
     MovingLighting used(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
