@@ -115,7 +115,7 @@ public:
                 moveTo(*proxyScene_, scene.anchor);
                 proxy_.emplace(*proxyScene_);
             }
-            if (options.allBounces) surfaces_ = sampleSurfaces(scene, kSurfaceSamples, clvHashCombine(seed, 0x5u));
+            if (options.allBounces) surfaces_ = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
             chooseJudges();
         });
         texels_.emplace(*embree_, seed, parallelFor);
@@ -336,7 +336,7 @@ private:
         clock_.time("rsm", [&] {
             std::vector<glm::vec3> irradiance(surfaces_.receivers.size(), glm::vec3(0.0f));
             read(lighting, surfaces_.receivers, 1.0f, irradiance);
-            emitters_.resize((irradiance.size() + kTexelWidth - 1) / kTexelWidth * kTexelWidth);
+            emitters_.assign((irradiance.size() + kTexelWidth - 1) / kTexelWidth * kTexelWidth, ClvRsmTexel{});
             glm::dvec3 sum(0.0);
             for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces_.albedo[k] * irradiance[k]) * double(surfaces_.area);
             vec3 correction(0.0f);

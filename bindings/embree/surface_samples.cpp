@@ -3,37 +3,69 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clv/math/sampling.h"
 #include "clv/math/sobol.h"
 
 namespace clv {
+namespace {
 
-SurfaceSamples sampleSurfaces(const Scene& scene, std::size_t count, std::uint32_t seed) {
+constexpr int kProbes = 16;
+constexpr std::size_t kPiece = 512;  // points
+
+// Right-handed normal of a triangle, not of unit length.
+vec3 windingNormal(const Scene& scene, std::uint32_t triangle) {
+    const glm::uvec3& c = scene.triangles[triangle];
+    return cross(scene.positions[c.y] - scene.positions[c.x], scene.positions[c.z] - scene.positions[c.x]);
+}
+
+// Whether the hemisphere over a receiver shows more fronts of surfaces than backs.
+bool seesFronts(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed) {
+    int fronts = 0, backs = 0;
+    for (uint k = 0; k < kProbes; ++k) {
+        const vec4 u = clvSobol4(k, seed);
+        const vec3 direction = clvCosineFromSquare(vec2(u.x, u.y), receiver.normal);
+        const ClvHit hit = scene.hit(receiver.position + receiver.normal * scene.surfaceOffset(), direction, kClvFar);
+        if (hit.primitive == 0xffffffffu) continue;
+        (dot(windingNormal(scene.scene(), hit.primitive), direction) < 0.0f ? fronts : backs)++;
+    }
+    return fronts > backs;
+}
+
+}  // namespace
+
+SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor) {
+    const Scene& scene = embree.scene();
     std::vector<double> areas(scene.triangles.size());
     double total = 0.0;
-    for (std::size_t t = 0; t < areas.size(); ++t) {
-        const glm::uvec3& c = scene.triangles[t];
-        const glm::dvec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
-        areas[t] = total += 0.5 * glm::length(glm::cross(b - a, d - a));
-    }
+    for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = total += 0.5 * double(glm::length(windingNormal(scene, std::uint32_t(t))));
+    SurfaceSamples all;
+    all.receivers.resize(2 * count);
+    all.albedo.resize(count);
+    std::vector<std::uint8_t> kept(2 * count);
+    parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        for (std::size_t k = piece * kPiece; k < std::min(count, (piece + 1) * kPiece); ++k) {
+            const vec4 u = clvSobol4(uint(k), seed);
+            const double at = (double(k) + u.x) / double(count) * total;
+            const std::size_t t = std::min<std::size_t>(std::lower_bound(areas.begin(), areas.end(), at) - areas.begin(), areas.size() - 1);
+            const glm::uvec3& c = scene.triangles[t];
+            // Uniform in a triangle: Turk 1990.
+            const float root = std::sqrt(u.y), v1 = root * (1.0f - u.z), v2 = root * u.z;
+            const vec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
+            const vec3 normal = glm::normalize(windingNormal(scene, std::uint32_t(t)));
+            all.albedo[k] = scene.albedo(std::uint32_t(t), v1, v2);
+            for (int side = 0; side < 2; ++side) {
+                ClvReceiver& receiver = all.receivers[2 * k + side];
+                receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};
+                kept[2 * k + side] = seesFronts(embree, receiver, clvHashCombine(seed, uint(2 * k + side)));
+            }
+        }
+    });
     SurfaceSamples samples;
     samples.area = float(total / double(count));
-    samples.receivers.reserve(2 * count);
-    samples.albedo.reserve(2 * count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const vec4 u = clvSobol4(uint(k), seed);
-        const double at = (double(k) + u.x) / double(count) * total;
-        const std::size_t t = std::min<std::size_t>(std::lower_bound(areas.begin(), areas.end(), at) - areas.begin(), areas.size() - 1);
-        const glm::uvec3& c = scene.triangles[t];
-        // Uniform in a triangle: Turk 1990.
-        const float root = std::sqrt(u.y), v1 = root * (1.0f - u.z), v2 = root * u.z;
-        const vec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
-        const vec3 normal = glm::normalize(cross(b - a, d - a));
-        const vec3 position = a + v1 * (b - a) + v2 * (d - a);
-        const vec3 albedo = scene.albedo(std::uint32_t(t), v1, v2);
-        for (const vec3& side : {normal, -normal}) {
-            samples.receivers.push_back({position, 0.0f, side, 0.0f});
-            samples.albedo.push_back(albedo);
-        }
+    for (std::size_t k = 0; k < 2 * count; ++k) {
+        if (!kept[k]) continue;
+        samples.receivers.push_back(all.receivers[k]);
+        samples.albedo.push_back(all.albedo[k / 2]);
     }
     return samples;
 }

@@ -1,20 +1,22 @@
-// Points spread evenly over all surfaces, both sides of each: where a volume's light is read to send it on.
+// Points spread evenly over all surfaces, on each side that light can reach: where a volume's light is read to send it on.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "bindings/embree/embree_scene.h"
+#include "clv/cpu/parallel.h"
 #include "clv/stages/evaluate.h"
 
 namespace clv {
 
 struct SurfaceSamples {
-    std::vector<ClvReceiver> receivers;  // two for each point: the front side, then the back
+    std::vector<ClvReceiver> receivers;
     std::vector<glm::vec3> albedo;       // linear RGB, a receiver each
     float area = 0.0f;                   // m^2 that each receiver stands for
 };
 
-// `count` points, in proportion to area, stratified along the order of the triangles.
-SurfaceSamples sampleSurfaces(const Scene& scene, std::size_t count, std::uint32_t seed);
+// `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. A side
+// is left out when nothing that it sees is a front: the inside of a solid, the outside of a closed room.
+SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor);
 
 }  // namespace clv

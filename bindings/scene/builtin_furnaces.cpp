@@ -38,13 +38,13 @@ Scene makeFurnaceBox() {
 }
 
 // rho = 0.8, Phi = 4 pi W, r = 1 m: one bounce E = 0.8 W/m^2, all bounces E = 4 W/m^2, in every channel. The tessellation keeps
-// the area of the sphere, so that the mean is exact.
+// the area of the sphere, so that the mean is exact. With the lamp in the centre the radiance is the same in all directions too.
 Scene makeWhiteSphere() {
     SceneBuilder builder("white_sphere");
     const std::uint32_t white = builder.addMaterial({"white", glm::vec3(0.8f), -1});
     builder.beginNode("sphere");
     addSphereInside(builder, 1.0, 5, white);
-    builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.31, 0.17, -0.23});
+    builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.0, 0.0, 0.0});
     const glm::dvec3 side(-0.7, 0.1, 0.4);
     builder.addCamera(cameraLookingAt("side", side, {0.4, 0.0, -0.2}, 1.3f), side);
     return std::move(builder).finish("white_sphere");

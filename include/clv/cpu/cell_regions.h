@@ -117,6 +117,8 @@ private:
     static constexpr int kSteps = 4;
     // Share of a plane's surface that a region must meet, and of the region that must lie on either side, for it to be parted there.
     static constexpr float kEdgeShare = 0.05f;
+    // Volume of other regions, over a slot's own, up to which it is left out.
+    static constexpr float kMostStray = 0.25f;
     // Share of the impurity that a further plane must remove.
     static constexpr float kLeastGain = 0.02f;
 
@@ -370,9 +372,17 @@ private:
             }
         }
         if (best < 0) {
-            // Deposits go where the tree sends them: what is mixed here counts as the largest region.
+            // Deposits go where the tree sends them, so what the planes leave of this region elsewhere counts here. A little of another
+            // region, as behind a curved wall, is left out: mostly it is dark there. More of it is counted, lest a slot of next to no
+            // volume take in the light of a large one.
             const int region = all.largest();
-            for (std::size_t k = first; k < last; ++k) samples_[k].region = region;
+            const int origin = regions_[region].root;
+            float own = 0.0f, other = 0.0f;
+            for (std::size_t k = first; k < last; ++k) (regions_[samples_[k].region].root == origin ? own : other) += samples_[k].volume;
+            for (std::size_t k = first; k < last; ++k) {
+                const bool stray = regions_[samples_[k].region].root != origin && other < kMostStray * own;
+                samples_[k].region = stray ? -1 : region;
+            }
             return -1 - region;
         }
         const vec4 equation = planeEquation(planes_[best]);
