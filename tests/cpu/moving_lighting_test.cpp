@@ -10,11 +10,11 @@ using namespace clv::test;
 
 namespace {
 
-// What a still volume says where the finest cascade of `lighting` stands, after all its rays at once.
-std::vector<vec3> stillIrradiance(const LitHall& hall, const MovingLighting& lighting, std::span<const ClvReceiver> receivers,
+// What a still volume says where a cascade of `lighting` stands, after all its rays at once.
+std::vector<vec3> stillIrradiance(const LitHall& hall, const MovingLighting& lighting, int cascade, std::span<const ClvReceiver> receivers,
                                   std::size_t count, uint seed) {
     const DepositLayout layout;
-    const ClvVolume& place = lighting.cascades().volumes[0];
+    const ClvVolume& place = lighting.cascades().volumes[cascade];
     Volume volume(buildLevel(place, hall.scene.probe(), {}, serialFor(), {.linesPerCell = 3}), layout, {.halves = 1, .chunks = 1});
     FrameRays rays({.halves = 1, .chunks = 1}, seed, 1e-4f);
     rays.draw(hall.sampler, count, serialFor());
@@ -38,20 +38,30 @@ TEST(MovingLighting, convergesToAStillVolumeAfterTheCameraStops) {
         lighting.moveTo(viewFrom(-6.0 + 0.15 * step, -1.5, 1.0));
         hall.frame(lighting, rays);
     }
-    const auto receivers = floorAround(vec3(0.0f, 0.0f, 1.0f), 3.0f);
-    const auto truth = stillIrradiance(hall, lighting, receivers, 1000000, 17);
-    const double onArrival = relativeError(irradianceAt(lighting, receivers), truth);
+    const std::array<std::vector<ClvReceiver>, 2> receivers{floorAround(vec3(0.0f, 0.0f, 1.0f), 3.0f),   // in the finest cascade
+                                                            floorAround(vec3(6.5f, 0.0f, 1.0f), 1.2f)};  // only in the next one
+    std::array<std::vector<vec3>, 2> truth, onArrival;
+    for (int c = 0; c < 2; ++c) {
+        for (const ClvReceiver& receiver : receivers[c]) {
+            ASSERT_EQ(clvCascadeFromPosition(lighting.cascades(), receiver.position), uint(c));
+            ASSERT_EQ(clvCascadeWeight(lighting.cascades(), uint(c), receiver.position), 1.0f);
+        }
+        truth[c] = stillIrradiance(hall, lighting, c, receivers[c], 1000000, 17);
+        onArrival[c] = irradianceAt(lighting, receivers[c]);
+    }
     const int frames = 60;
     for (int frame = 0; frame < frames; ++frame) {
         lighting.moveTo(viewFrom(0.0, -1.5, 1.0));
         hall.frame(lighting, rays);
     }
-    const double moved = relativeError(irradianceAt(lighting, receivers), truth);
-    const double still = relativeError(stillIrradiance(hall, lighting, receivers, frames * rays, 5), truth);
-    EXPECT_GT(meanOf(truth).x, 0.0f);
-    EXPECT_LT(moved, onArrival);
-    // Cells have at least as many rays as the still volume's; what is left of their first guesses may cost a little.
-    EXPECT_LT(moved, 1.1 * still);
+    for (int c = 0; c < 2; ++c) {
+        const double moved = relativeError(irradianceAt(lighting, receivers[c]), truth[c]);
+        const double still = relativeError(stillIrradiance(hall, lighting, c, receivers[c], frames * rays, 5), truth[c]);
+        EXPECT_GT(meanOf(truth[c]).x, 0.0f);
+        EXPECT_LT(moved, relativeError(onArrival[c], truth[c]));
+        // Cells have at least as many rays as the still volume's; what is left of their first guesses may cost a little.
+        EXPECT_LT(moved, 1.1 * still);
+    }
 }
 
 TEST(MovingLighting, cellsThatStayKeepTheirHistoryToTheLastBit) {
@@ -94,7 +104,7 @@ double errorAfterMove(const LitHall& hall, const MovingLightingSettings& setting
     for (int frame = 0; frame < 100; ++frame) hall.frame(lighting, rays);
     lighting.moveTo(to);
     hall.frame(lighting, rays);
-    return relativeError(irradianceAt(lighting, receivers), stillIrradiance(hall, lighting, receivers, 1000000, 17));
+    return relativeError(irradianceAt(lighting, receivers), stillIrradiance(hall, lighting, 0, receivers, 1000000, 17));
 }
 
 TEST(MovingLighting, newCellsStartFromTheNextCoarserCascade) {
@@ -309,6 +319,16 @@ TEST(MovingLighting, isTheSameToTheLastBitAThousandKilometresFromTheOrigin) {
     const auto receivers = floorAround(vec3(-2.0f, 0.0f, 0.0f), 3.0f);
     EXPECT_GT(meanOf(irradianceAt(a, receivers)).x, 0.0f);
     EXPECT_EQ(irradianceAt(a, receivers), irradianceAt(b, receivers));
+}
+
+TEST(MovingLighting, isDarkBeforeItsFirstMove) {
+    const LitHall hall;
+    MovingLighting lighting(twoCascades(), hall.scene.probe(), hall.tracer(), serialFor());
+    hall.frame(lighting, 1000);
+    EXPECT_EQ(meanOf(irradianceAt(lighting, floorAround(vec3(0.0f), 3.0f))), vec3(0.0f));
+    lighting.moveTo(viewFrom(-4.0, -1.0, 0.0));
+    hall.frame(lighting, 5000);
+    EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(-4.0f, 0.0f, 0.0f), 2.0f))).x, 0.0f);
 }
 
 TEST(MovingLighting, forgetsAllLightOnReset) {

@@ -99,8 +99,9 @@ public:
     }
 
     // Irradiance, W/m^2, from the finest cascade that holds the receiver, mixed with the next one near its edge. Beyond the last
-    // cascade the light is that of its edge.
+    // cascade the light is that of its edge; before the first move there is none.
     vec3 irradiance(const ClvReceiver& receiver) const {
+        if (cascades_.count == 0u) return vec3(0.0f);
         const uint cascade = clvCascadeFromPosition(cascades_, receiver.position);
         const float weight = clvCascadeWeight(cascades_, cascade, receiver.position);
         if (weight == 1.0f) return irradianceOf(cascade, receiver);
