@@ -133,7 +133,9 @@ void scatterStrided(const Crossings& crossings, const AlignedFloats& values, Ali
     for (std::size_t k = 0; k < crossings.slot.size(); ++k) {
         float* __restrict record = deposits.data() + std::size_t(crossings.slot[k]) * Stride;
         const float* __restrict add = values.data() + std::size_t(crossings.ray[k]) * Stride;
-        for (int j = 0; j < Stride; ++j) record[j] += add[j] * crossings.weight[k];
+        const float weight = crossings.weight[k];
+#pragma GCC unroll 1
+        for (int j = 0; j < Stride; ++j) record[j] += add[j] * weight;
     }
 }
 

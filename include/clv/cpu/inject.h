@@ -93,6 +93,8 @@ inline void depositCrossings(const Level& level, std::span<const ClvRay> rays, c
         const float weight = buffer.weight[k];
         float* __restrict record = deposits + std::size_t(slot) * Stride;
         const float* __restrict add = packet.value[lane];
+        // Unrolled as a whole, short records would not be made into vectors.
+#pragma GCC unroll 1
         for (int j = 0; j < Stride; ++j) record[j] += add[j] * weight;
         if (dynamicity) {
             float* side = dynamicity + std::size_t(slot) * 6;
