@@ -79,6 +79,26 @@ inline std::vector<vec3> irradianceAt(const MovingLighting& lighting, std::span<
     return out;
 }
 
+// What a still volume says where a cascade of `lighting` stands, after all its rays at once.
+inline std::vector<vec3> stillIrradiance(const LitHall& hall, const MovingLighting& lighting, int cascade,
+                                         std::span<const ClvReceiver> receivers, std::size_t count, uint seed) {
+    const DepositLayout layout;
+    const ClvVolume& place = lighting.cascades().volumes[cascade];
+    Volume volume(buildLevel(place, hall.scene.probe(), {}, serialFor(), {.linesPerCell = 3}), layout, {.halves = 1, .chunks = 1});
+    FrameRays rays({.halves = 1, .chunks = 1}, seed, 1e-4f);
+    rays.draw(hall.sampler, count, serialFor());
+    rays.trace(hall.tracer(), serialFor());
+    inject(volume.level(), layout, kClvInjectTrackLength, rays.all(), volume.partial(0, 0));
+    volume.merge(double(count), 1.0f / float(count), serialFor());
+    std::vector<vec3> out;
+    for (const ClvReceiver& receiver : receivers) {
+        SlotWeights weights;
+        lookupWeights(volume.level(), receiver, {}, weights);
+        out.push_back(readIrradiance(layout, volume.history(0), weights, clvReadCoefficients(layout.storage, receiver.normal)));
+    }
+    return out;
+}
+
 inline vec3 meanOf(std::span<const vec3> values) {
     vec3 sum(0.0f);
     for (const vec3& v : values) sum += v;
