@@ -29,6 +29,8 @@ constexpr std::size_t kManyRays = 512 << 10;       // from which on the volumes 
 constexpr std::size_t kJudges = 3000;              // receivers that choose the resolution
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
+constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
+constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
 constexpr int kMostSweeps = 24;                    // bounces
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left to the extrapolation
 constexpr int kTexelWidth = 256;                   // rows of the texel sampler
@@ -83,12 +85,12 @@ public:
     // Whether any light is on.
     bool any() const { return !lights_.empty(); }
 
-    void render(std::uint32_t pass, TexelSampler& sampler) {
+    void render(std::uint32_t pass, TexelSampler& sampler, const RayGuide* guide) {
         const std::size_t each = std::size_t(side_) * side_;
         for (std::size_t k = 0; k < lights_.size(); ++k) {
             renderRsm(scene_, lights_[k], side_, pass, clvHashCombine(seed_, uint(k)), parallelFor_, std::span(texels_).subspan(k * each, each));
         }
-        sampler.build(texels_, side_, parallelFor_);
+        sampler.build(texels_, side_, parallelFor_, guide);
     }
 
 private:
@@ -129,7 +131,7 @@ public:
             if (options_.allBounces) furtherBounces(out);
         }
         report_.stages = clock_.stages;
-        report_.frameSeconds = clock_.of({"rays", "trace", "inject", "merge", "choose", "evaluate"});
+        report_.frameSeconds = clock_.of({"guide", "rays", "trace", "inject", "merge", "choose", "evaluate"});
         return std::move(report_);
     }
 
@@ -200,6 +202,29 @@ private:
         clock_.time("trace", [&] { lighting.trace(); });
         report_.rays += lighting.currentRays().size();
     }
+    // A few rays show where the light goes; where much of it leaves the scene, the others are guided.
+    std::size_t pilot(std::uint64_t budget) {
+        TexelSampler sampler;
+        clock_.time("rsm", [&] { texels_->render(0, sampler, nullptr); });
+        if (sampler.empty()) return 0;
+        const std::size_t count = std::size_t(std::min<std::uint64_t>(kMostPilots, budget / kPilotShare));
+        std::vector<ClvRay> rays(count);
+        clock_.time("guide", [&] {
+            constexpr std::size_t kPiece = 2048;
+            const std::uint32_t seed = clvHashCombine(seed_, 0x7u);
+            parallelFor_((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
+                const auto part = std::span(rays).subspan(piece * kPiece, std::min(kPiece, count - piece * kPiece));
+                makeRays(sampler, uint(piece * kPiece), seed, embree_->surfaceOffset(), part);
+                (proxy_ ? *proxy_ : *embree_).trace(part);
+            });
+            guide_.emplace(scene_.bounds.lo, scene_.bounds.hi);
+            guide_->learn(rays);
+            guide_->finish();
+        });
+        report_.rays += count;
+        pilots_ = count;
+        return count;
+    }
     void inject(StillLighting& lighting, Volume& volume) {
         clock_.time("inject", [&] { lighting.inject(volume); });
         clock_.time("merge", [&] { lighting.merge(volume); });
@@ -217,20 +242,22 @@ private:
     }
 
     void firstBounce() {
-        const std::uint64_t budget = options_.seconds > 0.0 ? ~std::uint64_t(0) : options_.allBounces ? std::max<std::uint64_t>(options_.rays / 2, 1) : options_.rays;
+        std::uint64_t budget = options_.seconds > 0.0 ? ~std::uint64_t(0) : options_.allBounces ? std::max<std::uint64_t>(options_.rays / 2, 1) : options_.rays;
         lighting_ = makeLighting(lighting_, automatic_ ? 2 : 1, std::size_t(std::min<std::uint64_t>(budget, kManyRays)), 1);
         addLevel(automatic_ ? kResolutions[0] : options_.resolution);
         if (automatic_) addLevel(kResolutions[1]);
 
         Progress progress("light");
         TexelSampler sampler;
+        const std::uint64_t pilots = pilot(options_.seconds > 0.0 ? kFirstRound : budget);
+        if (options_.seconds <= 0.0) budget -= pilots;
         std::uint64_t done = 0;
         std::size_t round = options_.frames > 1 ? std::size_t((budget + options_.frames - 1) / options_.frames) : kFirstRound;
         const double timeForThis = options_.allBounces ? 0.5 * options_.seconds : options_.seconds;
         for (std::uint32_t pass = 0; done < budget; ++pass) {
             const std::size_t count = std::size_t(std::min<std::uint64_t>(round, budget - done));
             const double before = progress.seconds();
-            clock_.time("rsm", [&] { texels_->render(pass, sampler); });
+            clock_.time("rsm", [&] { texels_->render(pass, sampler, guide_ ? &*guide_ : nullptr); });
             if (sampler.empty()) return;
             trace(*lighting_, sampler, count);
             for (Volume& volume : lighting_->volumes()) inject(*lighting_, volume);
@@ -273,7 +300,7 @@ private:
                     const Volume& volume = lighting_->volumes()[l];
                     estimate(volume, estimates_[l]);
                     // A level that joined late has missed the rays before it.
-                    const double missed = double(report_.rays) - volume.rays();
+                    const double missed = double(report_.rays - pilots_) - volume.rays();
                     factor.push_back(std::max(1.0, (targetRays - missed) / volume.rays()));
                 }
                 mix_ = chooseLevels(estimates_, factor);
@@ -423,10 +450,12 @@ private:
     std::optional<Scene> proxyScene_;
     std::optional<LightTexels> texels_;
     SurfaceSamples surfaces_;
+    std::optional<RayGuide> guide_;
     std::unique_ptr<StillLighting> lighting_;
     std::vector<int> resolutions_;
     LevelMix mix_{};
     std::vector<HalfEstimates> estimates_;
+    std::size_t pilots_ = 0;
     std::vector<ClvHit> hits_;
     std::vector<ClvRsmTexel> emitters_;
     glm::dvec3 sent_{0.0}, sentOn_{0.0}, nextPower_{0.0};

@@ -9,6 +9,42 @@
 
 namespace clv {
 
+namespace detail {
+
+// Resamples each direction among RayGuide::kCandidates: the one that is there, made from (u, v), and others made from shifted copies
+// of (u, v), so that every candidate stays stratified. `probability` takes up the choice.
+inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, uint seed, const ClvRsmTexel* texel, const float* u, const float* v,
+                             float (*direction)[TexelSampler::kBlock], float* probability) {
+    constexpr int kBlock = TexelSampler::kBlock, kCandidates = RayGuide::kCandidates;
+    // Steps of the R2 sequence (Roberts 2018).
+    constexpr float kStepU = 0.7548776662f, kStepV = 0.5698402910f;
+    float x[kCandidates][kBlock], y[kCandidates][kBlock], z[kCandidates][kBlock], normal[3][kBlock];
+    for (int k = 0; k < count; ++k) {
+        for (int axis = 0; axis < 3; ++axis) normal[axis][k] = texel[k].normal[axis];
+        x[0][k] = direction[0][k], y[0][k] = direction[1][k], z[0][k] = direction[2][k];
+    }
+    for (int c = 1; c < kCandidates; ++c) {
+        for (int k = 0; k < count; ++k) {
+            const vec2 shifted(fract(u[k] + float(c) * kStepU), fract(v[k] + float(c) * kStepV));
+            const vec3 d = clvCosineFromSquare(shifted, vec3(normal[0][k], normal[1][k], normal[2][k]));
+            x[c][k] = d.x, y[c][k] = d.y, z[c][k] = d.z;
+        }
+    }
+    const uint choiceSeed = clvHashCombine(seed, 0x6c1du);
+    for (int k = 0; k < count; ++k) {
+        const int cell = guide.cellAt(texel[k].position);
+        float weight[kCandidates], sum = 0.0f;
+        for (int c = 0; c < kCandidates; ++c) sum += weight[c] = guide.directionWeight(cell, vec3(x[c][k], y[c][k], z[c][k]));
+        float left = clvUnitFloat(clvHashCombine(choiceSeed, firstIndex + uint(k))) * sum;
+        int chosen = 0;
+        while (chosen + 1 < kCandidates && left >= weight[chosen]) left -= weight[chosen++];
+        direction[0][k] = x[chosen][k], direction[1][k] = y[chosen][k], direction[2][k] = z[chosen][k];
+        probability[k] *= weight[chosen] * float(kCandidates) / sum;
+    }
+}
+
+}  // namespace detail
+
 // Ray k of `out` is number firstIndex + k of the sequence; two dimensions pick the texel, two the direction. Each ray carries the
 // flux of the whole light, as if it were the only one: the mean over rays is the estimate. `originOffset`, m, see clvRayAlong.
 inline void makeRays(const TexelSampler& sampler, uint firstIndex, uint seed, float originOffset, std::span<ClvRay> out) {
@@ -35,6 +71,7 @@ inline void makeRays(const TexelSampler& sampler, uint firstIndex, uint seed, fl
             direction[1][k] = d.y;
             direction[2][k] = d.z;
         }
+        if (sampler.guide()) detail::chooseDirections(*sampler.guide(), count, index, seed, texel, u[2], u[3], direction, probability);
         for (int k = 0; k < count; ++k) {
             const vec3 d(direction[0][k], direction[1][k], direction[2][k]);
             out[first + k] = probability[k] > 0.0f ? clvRayAlong(texel[k], d, 1.0f / probability[k], originOffset) : clvDeadRay();

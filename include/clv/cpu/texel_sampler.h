@@ -1,4 +1,4 @@
-// Picks RSM texels in proportion to their flux, so that every ray carries the same power.
+// Picks RSM texels in proportion to their flux, so that every ray carries the same power, or as a guide prefers them.
 #ifndef CLV_CPU_TEXEL_SAMPLER_H
 #define CLV_CPU_TEXEL_SAMPLER_H
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "../data/rsm_texel.h"
 #include "parallel.h"
+#include "ray_guide.h"
 
 namespace clv {
 
@@ -85,9 +86,10 @@ class TexelSampler {
 public:
     static constexpr int kBlock = 256;
 
-    // texels.size() must be a multiple of width, and below 2^30. The span must outlive the sampler's use. Allocates only when the
-    // size grows.
-    void build(std::span<const ClvRsmTexel> texels, int width, const ParallelFor& parallelFor) {
+    // texels.size() must be a multiple of width, and below 2^30. The span must outlive the sampler's use, and so must `guide`, which
+    // may be null. Allocates only when the size grows.
+    void build(std::span<const ClvRsmTexel> texels, int width, const ParallelFor& parallelFor, const RayGuide* guide = nullptr) {
+        guide_ = guide && guide->worthwhile() ? guide : nullptr;
         texels_ = texels;
         width_ = width;
         const int height = int(texels.size()) / width;
@@ -103,8 +105,10 @@ public:
     }
     // Whether any texel sends light.
     bool empty() const { return !(totalFlux_ > 0.0); }
-    // Sum over the channels of all texels' flux, W.
+    // Sum over the channels of all texels' flux, W; weighted, where there is a guide.
     double totalFlux() const { return totalFlux_; }
+    // By which directions are to be chosen, or null.
+    const RayGuide* guide() const { return guide_; }
 
     // Up to kBlock samples at once: for each u[k], v[k] in [0, 1) a texel, and its probability.
     void sample(int count, const float* u, const float* v, ClvRsmTexel* texel, float* probability) const {
@@ -120,11 +124,13 @@ public:
     }
 
 private:
-    static double importance(const ClvRsmTexel& texel) {
+    double importance(const ClvRsmTexel& texel) const {
         const double sum = double(texel.flux.x) + texel.flux.y + texel.flux.z;
-        return texel.valid != 0u && sum > 0.0 && sum < 1e30 ? sum : 0.0;
+        if (texel.valid == 0u || !(sum > 0.0 && sum < 1e30)) return 0.0;
+        return guide_ ? sum * guide_->texelWeight(guide_->cellAt(texel.position)) : sum;
     }
 
+    const RayGuide* guide_ = nullptr;
     std::span<const ClvRsmTexel> texels_;
     int width_ = 1;
     DiscreteRows rows_, marginal_;
