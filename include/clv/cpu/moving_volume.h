@@ -21,7 +21,7 @@ struct MovingVolumeSettings {
 class MovingVolume {
 public:
     explicit MovingVolume(const MovingVolumeSettings& settings)
-        : settings_(settings), level_(settings.level), partials_(std::size_t(settings.chunks)) {
+        : settings_(settings), level_(settings.level), partials_(std::size_t(settings.chunks)), fromCoarser_(guessStride(settings)) {
         const std::size_t slots = MovingLevel::slotsOf(settings.level);
         for (PartialVolume& partial : partials_) partial.reserve(slots, settings.layout, settings.movingLights);
         history_.reserve(slots, settings.layout, settings.movingLights);
@@ -32,11 +32,11 @@ public:
     // Bytes of a volume before it is made; see MovingLevel::bytes.
     static std::size_t bytes(const MovingVolumeSettings& settings) {
         const std::size_t slots = MovingLevel::slotsOf(settings.level), cells = MovingLevel::cellsOf(settings.level);
-        return MovingLevel::bytes(settings.level) + slots * sizeof(float) + cells * guessStride(settings) * sizeof(float) +
+        return MovingLevel::bytes(settings.level) + slots * sizeof(float) + (cells + 1) * guessStride(settings) * sizeof(float) +
                PartialVolume::bytes(slots, settings.layout, settings.movingLights) * std::size_t(settings.chunks + 1);
     }
     std::size_t bytes() const {
-        std::size_t sum = level_.bytes() + history_.bytes() + (frames_.capacity() + leaving_.capacity()) * sizeof(float);
+        std::size_t sum = level_.bytes() + history_.bytes() + (frames_.capacity() + leaving_.capacity() + fromCoarser_.capacity()) * sizeof(float);
         for (const PartialVolume& partial : partials_) sum += partial.bytes();
         return sum;
     }
@@ -145,8 +145,6 @@ private:
 
     void seedExposed(const MovingVolume* coarser) {
         std::span<const float> leaving = leaving_;
-        std::array<float, 33> around;
-        const std::span<float> fromCoarser = std::span(around).first(guessStride());
         level_.forExposedCells([&](const ivec3& cell) {
             const std::span<const float> left = leaving.first(guessStride());
             leaving = leaving.subspan(guessStride());
@@ -154,9 +152,8 @@ private:
             if (entry == kClvNoSlot) return;
             const CellSlots slots = slotsOfCell(level(), entry);
             for (uint slot = slots.first; slot < slots.first + slots.count; ++slot) {
-                around[0] = 0.0f;
-                if (coarser) coarser->guessAt(level_.inside(slot), fromCoarser);
-                if (around[0] > 0.0f) seed(slot, fromCoarser, settings_.guessFrames);
+                if (coarser) coarser->guessAt(level_.inside(slot), fromCoarser_);
+                if (fromCoarser_[0] > 0.0f) seed(slot, fromCoarser_, settings_.guessFrames);
                 else seed(slot, left, settings_.slidOutFrames);
             }
         });
@@ -188,8 +185,9 @@ private:
     MovingLevel level_;
     std::vector<PartialVolume> partials_;
     PartialVolume history_;
-    std::vector<float> frames_;   // a slot each
-    std::vector<float> leaving_;  // guesses of the exposed cells, in their order
+    std::vector<float> frames_;       // a slot each
+    std::vector<float> leaving_;      // guesses of the exposed cells, in their order
+    std::vector<float> fromCoarser_;  // one guess; stays 0 where there is no coarser cascade
 };
 
 }  // namespace clv
