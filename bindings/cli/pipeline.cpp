@@ -208,16 +208,15 @@ private:
         clock_.time("rsm", [&] { texels_->render(0, sampler, nullptr); });
         if (sampler.empty()) return 0;
         const std::size_t count = std::size_t(std::min<std::uint64_t>(kMostPilots, budget / kPilotShare));
-        std::vector<ClvRay> rays(count);
+        const std::span<ClvRay> rays = std::span(pilotRays_).first(count);
         clock_.time("guide", [&] {
             constexpr std::size_t kPiece = 2048;
             const std::uint32_t seed = clvHashCombine(seed_, 0x7u);
             parallelFor_((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
-                const auto part = std::span(rays).subspan(piece * kPiece, std::min(kPiece, count - piece * kPiece));
+                const auto part = rays.subspan(piece * kPiece, std::min(kPiece, count - piece * kPiece));
                 makeRays(sampler, uint(piece * kPiece), seed, embree_->surfaceOffset(), part);
                 (proxy_ ? *proxy_ : *embree_).trace(part);
             });
-            guide_.emplace(scene_.bounds.lo, scene_.bounds.hi);
             guide_->learn(rays);
             guide_->finish();
         });
@@ -244,6 +243,13 @@ private:
     void firstBounce() {
         std::uint64_t budget = options_.seconds > 0.0 ? ~std::uint64_t(0) : options_.allBounces ? std::max<std::uint64_t>(options_.rays / 2, 1) : options_.rays;
         lighting_ = makeLighting(lighting_, automatic_ ? 2 : 1, std::size_t(std::min<std::uint64_t>(budget, kManyRays)), 1);
+        clock_.time("setup", [&] {
+            lighting_->reserveRays(std::size_t(std::min<std::uint64_t>(budget, options_.frames > 1 ? budget / options_.frames : kFirstRound)));
+            estimates_.resize(2);
+            for (HalfEstimates& e : estimates_) e.half[0].resize(judges_.size()), e.half[1].resize(judges_.size());
+            pilotRays_.resize(kMostPilots);
+            guide_.emplace(scene_.bounds.lo, scene_.bounds.hi);
+        });
         addLevel(automatic_ ? kResolutions[0] : options_.resolution);
         if (automatic_) addLevel(kResolutions[1]);
 
@@ -456,6 +462,7 @@ private:
     LevelMix mix_{};
     std::vector<HalfEstimates> estimates_;
     std::size_t pilots_ = 0;
+    std::vector<ClvRay> pilotRays_;
     std::vector<ClvHit> hits_;
     std::vector<ClvRsmTexel> emitters_;
     glm::dvec3 sent_{0.0}, sentOn_{0.0}, nextPower_{0.0};

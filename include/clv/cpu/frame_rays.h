@@ -16,6 +16,11 @@ public:
     // Each half has a sequence of its own, from `seed`. originOffset: m; rays start this far above their surface.
     FrameRays(const VolumeParts& parts, uint seed, float originOffset) : parts_(parts), seed_(seed), originOffset_(originOffset) {}
 
+    // Takes and touches the memory of `count` rays, so that no frame of as many has to.
+    void reserve(std::size_t count) {
+        if (rays_.size() < count) rays_.resize(count + std::size_t(parts_.halves) * parts_.chunks);
+    }
+
     // `count` rays, rounded up so that each half and chunk has as many; their sequence goes on where the last frame's ended.
     // Allocates only when it exceeds every count so far.
     void draw(const TexelSampler& sampler, std::size_t count, const ParallelFor& parallelFor) {

@@ -29,6 +29,9 @@ public:
     std::deque<Volume>& volumes() { return volumes_; }
     const std::deque<Volume>& volumes() const { return volumes_; }
 
+    // Takes the memory of `count` rays before the first frame.
+    void reserveRays(std::size_t count) { rays_.reserve(count); }
+
     // `count` rays, rounded up so that each half and chunk has as many. Allocates only when it exceeds every count so far.
     void rays(const TexelSampler& sampler, std::size_t count) { rays_.draw(sampler, count, parallelFor_); }
 
