@@ -12,7 +12,7 @@
 #include "bindings/embree/surface_samples.h"
 #include "bindings/embree/visible_points.h"
 #include "clv/cpu/build_level.h"
-#include "clv/cpu/evaluate.h"
+#include "clv/cpu/lookup_table.h"
 #include "clv/cpu/resolution.h"
 #include "clv/cpu/still_lighting.h"
 #include "clv/plan/needs.h"
@@ -289,7 +289,11 @@ private:
 
     void addLevel(int resolution) {
         Level level = makeLevel(resolution);
-        clock_.time("setup", [&] { lighting_->addLevel(std::move(level)); });
+        clock_.time("setup", [&] {
+            // Points, judges and surfaces stand still: their weights are found once.
+            lookups_.push_back({{level, points_, {}, parallelFor_}, {level, judges_, {}, parallelFor_}, {level, surfaces_.receivers, {}, parallelFor_}});
+            lighting_->addLevel(std::move(level));
+        });
         resolutions_.push_back(resolution);
         mix_ = {};
         mix_[resolutions_.size() - 1] = 1.0;
@@ -304,7 +308,7 @@ private:
                 estimates_.resize(resolutions_.size());
                 for (std::size_t l = 0; l < resolutions_.size(); ++l) {
                     const Volume& volume = lighting_->volumes()[l];
-                    estimate(volume, estimates_[l]);
+                    estimate(volume, lookups_[l].judges, estimates_[l]);
                     // A level that joined late has missed the rays before it.
                     const double missed = double(report_.rays - pilots_) - volume.rays();
                     factor.push_back(std::max(1.0, (targetRays - missed) / volume.rays()));
@@ -320,46 +324,49 @@ private:
         }
         while (resolutions_.size() > 2 && mix_[0] == 0.0 && mix_[1] == 0.0) {
             lighting_->removeFirstLevel();
+            lookups_.erase(lookups_.begin());
             resolutions_.erase(resolutions_.begin());
             std::rotate(mix_.begin(), mix_.begin() + 1, mix_.end());
         }
     }
 
-    void estimate(const Volume& volume, HalfEstimates& estimates) const {
+    void estimate(const Volume& volume, const LookupTable& lookup, HalfEstimates& estimates) const {
         for (auto& half : estimates.half) half.resize(judges_.size());
-        forReceivers(judges_.size(), [&](std::size_t i, SlotWeights& weights) {
-            lookupWeights(volume.level(), judges_[i], {}, weights);
-            const ClvCoefficients read = clvReadCoefficients(options_.storage, judges_[i].normal);
-            for (int half = 0; half < 2; ++half) estimates.half[half][i] = readIrradiance(layout_, volume.history(half), weights, read);
+        forReceivers(judges_.size(), [&](std::size_t i) {
+            const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, judges_[i].normal);
+            for (int half = 0; half < 2; ++half) estimates.half[half][i] = lookup.irradiance(i, layout_, volume.history(half), coefficients);
         });
     }
 
     template <class Body>
     void forReceivers(std::size_t count, Body&& body) const {
-        constexpr std::size_t kPiece = 256;
+        constexpr std::size_t kPiece = LookupTable::kPiece;
         parallelFor_((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            SlotWeights weights;
-            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i, weights);
+            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i);
         });
     }
 
+    struct Lookups {
+        LookupTable points, judges, surfaces;
+    };
+
     // The chosen levels, mixed: E at receivers is added to `sum`, times `scale`.
-    void read(const StillLighting& lighting, std::span<const ClvReceiver> receivers, float scale, std::span<glm::vec3> sum) const {
-        forReceivers(receivers.size(), [&](std::size_t i, SlotWeights& weights) {
+    void read(const StillLighting& lighting, LookupTable Lookups::*which, std::span<const ClvReceiver> receivers, float scale,
+              std::span<glm::vec3> sum) const {
+        forReceivers(receivers.size(), [&](std::size_t i) {
             const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, receivers[i].normal);
             for (std::size_t l = 0; l < lighting.volumes().size(); ++l) {
                 if (mix_[l] == 0.0) continue;
                 const Volume& volume = lighting.volumes()[l];
-                lookupWeights(volume.level(), receivers[i], {}, weights);
                 const int halves = volume.parts().halves;
                 for (int half = 0; half < halves; ++half) {
-                    sum[i] += readIrradiance(layout_, volume.history(half), weights, coefficients) * (scale * float(mix_[l]) / float(halves));
+                    sum[i] += (lookups_[l].*which).irradiance(i, layout_, volume.history(half), coefficients) * (scale * float(mix_[l]) / float(halves));
                 }
             }
         });
     }
     void evaluate(const StillLighting& lighting, std::span<glm::vec3> out, float scale = 1.0f) {
-        clock_.time("evaluate", [&] { read(lighting, points_, scale, out); });
+        clock_.time("evaluate", [&] { read(lighting, &Lookups::points, points_, scale, out); });
     }
 
     // Surfaces send on what the volume says they receive; the sum over the surfaces is set to what the rays brought there, so that no
@@ -368,7 +375,7 @@ private:
         bool any = false;
         clock_.time("rsm", [&] {
             std::vector<glm::vec3> irradiance(surfaces_.receivers.size(), glm::vec3(0.0f));
-            read(lighting, surfaces_.receivers, 1.0f, irradiance);
+            read(lighting, &Lookups::surfaces, surfaces_.receivers, 1.0f, irradiance);
             emitters_.assign((irradiance.size() + kTexelWidth - 1) / kTexelWidth * kTexelWidth, ClvRsmTexel{});
             glm::dvec3 sum(0.0);
             for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces_.albedo[k] * irradiance[k]) * double(surfaces_.area);
@@ -460,6 +467,7 @@ private:
     std::unique_ptr<StillLighting> lighting_;
     std::vector<int> resolutions_;
     LevelMix mix_{};
+    std::vector<Lookups> lookups_;
     std::vector<HalfEstimates> estimates_;
     std::size_t pilots_ = 0;
     std::vector<ClvRay> pilotRays_;

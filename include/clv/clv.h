@@ -54,6 +54,7 @@
 #include "cpu/inject.h"
 #include "cpu/level.h"
 #include "cpu/line_grid.h"
+#include "cpu/lookup_table.h"
 #include "cpu/moving_level.h"
 #include "cpu/moving_lighting.h"
 #include "cpu/moving_volume.h"

@@ -128,15 +128,32 @@ inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const
     }
 }
 
-// Irradiance, W/m^2, from records of layout.stride() floats a slot. A scene without colour gives three equal channels.
-inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, const SlotWeights& weights,
-                           const ClvCoefficients& read) {
-    alignas(64) float sum[32] = {};
-    const int stride = layout.stride();
-    for (int i = 0; i < weights.count; ++i) {
-        const float* record = deposits.data() + std::size_t(weights.slot[i]) * stride;
-        const float w = weights.weight[i];
-        for (int j = 0; j < stride; ++j) sum[j] += record[j] * w;
+namespace detail {
+
+// sum[j] = sum over i of weight[i] * deposits[slot[i] * Stride + j].
+template <int Stride>
+inline void weighRecords(std::span<const float> deposits, std::span<const uint> slots, std::span<const float> weights, float* out) {
+    alignas(64) float sum[Stride] = {};
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const float* __restrict record = deposits.data() + std::size_t(slots[i]) * Stride;
+        const float w = weights[i];
+        for (int j = 0; j < Stride; ++j) sum[j] += record[j] * w;
+    }
+    for (int j = 0; j < Stride; ++j) out[j] = sum[j];
+}
+
+}  // namespace detail
+
+// Irradiance, W/m^2, from records of layout.stride() floats a slot: the sum over i of weights[i] (1/m^3) times the record of slots[i],
+// read for the normal. A scene without colour gives three equal channels.
+inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, std::span<const uint> slots,
+                           std::span<const float> weights, const ClvCoefficients& read) {
+    alignas(64) float sum[32];
+    switch (layout.stride()) {
+        case 8: detail::weighRecords<8>(deposits, slots, weights, sum); break;
+        case 16: detail::weighRecords<16>(deposits, slots, weights, sum); break;
+        case 24: detail::weighRecords<24>(deposits, slots, weights, sum); break;
+        default: detail::weighRecords<32>(deposits, slots, weights, sum); break;
     }
     const float r[9] = {read.a.x, read.a.y, read.a.z, read.a.w, read.b.x, read.b.y, read.b.z, read.b.w, read.c};
     vec3 irradiance(0.0f);
@@ -144,6 +161,11 @@ inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> d
         for (int c = 0; c < 3; ++c) irradiance[c] += r[k] * sum[layout.channels == 1 ? k : 3 * k + c];
     }
     return max(irradiance, vec3(0.0f));
+}
+inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, const SlotWeights& weights,
+                           const ClvCoefficients& read) {
+    const auto count = std::size_t(weights.count);
+    return readIrradiance(layout, deposits, {weights.slot.data(), count}, {weights.weight.data(), count}, read);
 }
 
 }  // namespace clv
