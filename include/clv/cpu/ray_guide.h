@@ -6,6 +6,7 @@
 // (Talbot, Cline, Egbert 2005). Both weights are divided out of the flux, so the expected light stays the same whatever the guide says.
 #ifndef CLV_CPU_RAY_GUIDE_H
 #define CLV_CPU_RAY_GUIDE_H
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -26,15 +27,17 @@ public:
         const std::size_t cells = std::size_t(grid_.resolution.x) * grid_.resolution.y * grid_.resolution.z;
         tried_.resize(cells * kBins);
         met_.resize(cells * kBins);
-        weight_.resize(cells * kBins, 1.0f);
-        cellWeight_.resize(cells, 1.0f);
+        row_.resize(cells, 0);
+        weight_.resize((cells + 1) * kBins, 1.0f);
+        rowWeight_.resize(cells + 1, 1.0f);
     }
 
     // Notes what traced rays met; they start with a density that is proportional to the cosine. Call finish() after the last.
     void learn(std::span<const ClvRay> rays) {
         for (const ClvRay& ray : rays) {
             if (!(ray.maxDistance > 0.0f)) continue;
-            const std::size_t bin = std::size_t(cellAt(ray.origin)) * kBins + binOf(ray.direction);
+            const uint cell = clvCellIndex(grid_, clvClampCell(grid_, clvCellFromPosition(grid_, ray.origin)));
+            const std::size_t bin = std::size_t(cell) * kBins + binOf(ray.direction.x, ray.direction.y, ray.direction.z);
             tried_[bin]++;
             met_[bin] += ray.maxDistance < kClvFar;
         }
@@ -48,22 +51,15 @@ public:
             allTried += tried_[i], allMet += met_[i];
         }
         share_ = allTried > 0.0 ? allMet / allTried : 1.0;
-        if (!worthwhile()) return;
-        for (std::size_t cell = 0; cell < cellWeight_.size(); ++cell) {
-            double cellTried = 0.0, cellMet = 0.0;
-            for (int b = 0; b < kBins; ++b) cellTried += tried_[cell * kBins + b], cellMet += met_[cell * kBins + b];
-            const double inCell = (cellMet + kPrior * share_) / (cellTried + kPrior);
-            double sum = 0.0;
-            for (int b = 0; b < kBins; ++b) {
-                const std::size_t i = cell * kBins + b;
-                // Before any ray of its own, a bin is expected to do as well as its cell and its direction do elsewhere.
-                const double along = tried[b] > 0.0 ? met[b] / tried[b] : share_;
-                const double expected = std::min(1.0, inCell * along / share_);
-                const double p = (met_[i] + kPrior * expected) / (tried_[i] + kPrior);
-                weight_[i] = float(std::sqrt(std::max(p, kLeastShare)));
-                sum += tried_[i] * weight_[i];
-            }
-            cellWeight_[cell] = cellTried > 0.0 ? float(sum / cellTried) : float(std::sqrt(std::max(share_, kLeastShare)));
+        if (!worthwhile() || share_ == 0.0) return;
+        // Row 0 is for cells that no ray has left yet.
+        int rows = 1;
+        fillRow(0, nullptr, nullptr, tried, met);
+        for (std::size_t cell = 0; cell < row_.size(); ++cell) {
+            const std::uint32_t* cellTried = tried_.data() + cell * kBins;
+            if (std::all_of(cellTried, cellTried + kBins, [](std::uint32_t n) { return n == 0; })) continue;
+            row_[cell] = rows++;
+            fillRow(row_[cell], cellTried, met_.data() + cell * kBins, tried, met);
         }
     }
 
@@ -72,28 +68,51 @@ public:
     // A closed scene has nothing to gain.
     bool worthwhile() const { return share_ < kMostShare; }
 
-    // Index of the cell that holds a position (clamped to the grid).
-    int cellAt(const vec3& position) const { return int(clvCellIndex(grid_, clvClampCell(grid_, clvCellFromPosition(grid_, position)))); }
-    // By which texels in a cell are preferred.
-    float texelWeight(int cell) const { return cellWeight_[cell]; }
-    // By which a direction (unit length) is preferred.
-    float directionWeight(int cell, const vec3& direction) const { return weight_[std::size_t(cell) * kBins + binOf(direction)]; }
+    // By which texels at a position are preferred.
+    float texelWeight(const vec3& position) const { return rowWeight_[rowAt(position)]; }
+
+    // For each k, by which direction (x[k], y[k], z[k]), of unit length, is preferred at a position whose row is row[k].
+    void directionWeights(int count, const int* __restrict row, const float* __restrict x, const float* __restrict y,
+                          const float* __restrict z, float* __restrict weight) const {
+        const float* weights = weight_.data();
+        for (int k = 0; k < count; ++k) weight[k] = weights[row[k] * kBins + binOf(x[k], y[k], z[k])];
+    }
+    int rowAt(const vec3& position) const { return row_[clvCellIndex(grid_, clvClampCell(grid_, clvCellFromPosition(grid_, position)))]; }
 
 private:
     static constexpr double kPrior = 8.0;         // rays that the expectation of a bin counts for
     static constexpr double kLeastShare = 0.03;   // keeps the flux of a ray that was not expected to meet anything within bounds
     static constexpr double kMostShare = 0.9;
 
-    // The axis along which the direction is longest, and the signs of all three components.
-    static int binOf(const vec3& d) {
-        const vec3 a = abs(d);
-        const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-        return 8 * axis + (d.x > 0.0f) + 2 * (d.y > 0.0f) + 4 * (d.z > 0.0f);
+    // The axis along which the direction is longest, and the signs of all three components. Without branches, for vectors.
+    static int binOf(float x, float y, float z) {
+        const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
+        const int notX = (ax < ay) | (ax < az), zWins = ay < az;
+        return 8 * notX * (1 + zWins) + (x > 0.0f) + 2 * (y > 0.0f) + 4 * (z > 0.0f);
+    }
+
+    // What a cell has seen, and where that is little, what is to be expected: as good as the cell and the direction are elsewhere.
+    void fillRow(int row, const std::uint32_t* tried, const std::uint32_t* met, const std::array<double, kBins>& allTried,
+                 const std::array<double, kBins>& allMet) {
+        double cellTried = 0.0, cellMet = 0.0;
+        for (int b = 0; tried && b < kBins; ++b) cellTried += tried[b], cellMet += met[b];
+        const double inCell = (cellMet + kPrior * share_) / (cellTried + kPrior);
+        double sum = 0.0;
+        for (int b = 0; b < kBins; ++b) {
+            const double along = allTried[b] > 0.0 ? allMet[b] / allTried[b] : share_;
+            const double expected = std::min(1.0, inCell * along / share_);
+            const double p = tried ? (met[b] + kPrior * expected) / (tried[b] + kPrior) : expected;
+            weight_[std::size_t(row) * kBins + b] = float(std::sqrt(std::max(p, kLeastShare)));
+            if (tried) sum += tried[b] * weight_[std::size_t(row) * kBins + b];
+        }
+        rowWeight_[row] = cellTried > 0.0 ? float(sum / cellTried) : float(std::sqrt(std::max(share_, kLeastShare)));
     }
 
     ClvVolume grid_;
     std::vector<std::uint32_t> tried_, met_;
-    std::vector<float> weight_, cellWeight_;
+    std::vector<int> row_;            // a cell each
+    std::vector<float> weight_;       // kBins a row
+    std::vector<float> rowWeight_;    // the mean of a row over the rays that left there
     double share_ = 1.0;
 };
 

@@ -30,17 +30,30 @@ inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, 
             x[c][k] = d.x, y[c][k] = d.y, z[c][k] = d.z;
         }
     }
-    const uint choiceSeed = clvHashCombine(seed, 0x6c1du);
-    for (int k = 0; k < count; ++k) {
-        const int cell = guide.cellAt(texel[k].position);
-        float weight[kCandidates], sum = 0.0f;
-        for (int c = 0; c < kCandidates; ++c) sum += weight[c] = guide.directionWeight(cell, vec3(x[c][k], y[c][k], z[c][k]));
-        float left = clvUnitFloat(clvHashCombine(choiceSeed, firstIndex + uint(k))) * sum;
-        int chosen = 0;
-        while (chosen + 1 < kCandidates && left >= weight[chosen]) left -= weight[chosen++];
-        direction[0][k] = x[chosen][k], direction[1][k] = y[chosen][k], direction[2][k] = z[chosen][k];
-        probability[k] *= weight[chosen] * float(kCandidates) / sum;
+    int row[kBlock];
+    for (int k = 0; k < count; ++k) row[k] = guide.rowAt(texel[k].position);
+    float weight[kCandidates][kBlock], sum[kBlock] = {}, left[kBlock];
+    for (int c = 0; c < kCandidates; ++c) {
+        guide.directionWeights(count, row, x[c], y[c], z[c], weight[c]);
+        for (int k = 0; k < count; ++k) sum[k] += weight[c][k];
     }
+    const uint choiceSeed = clvHashCombine(seed, 0x6c1du);
+    for (int k = 0; k < count; ++k) left[k] = clvUnitFloat(clvHashCombine(choiceSeed, firstIndex + uint(k))) * sum[k];
+    // The first candidate at which the running sum passes what was drawn; the first of all where rounding lets none.
+    float chosen[kBlock] = {};
+    for (int c = kCandidates - 1; c >= 0; --c) {
+        float before[kBlock] = {};
+        for (int b = 0; b < c; ++b)
+            for (int k = 0; k < count; ++k) before[k] += weight[b][k];
+        for (int k = 0; k < count; ++k) {
+            const bool takes = (left[k] >= before[k] && left[k] < before[k] + weight[c][k]) || (c == 0 && chosen[k] == 0.0f);
+            direction[0][k] = takes ? x[c][k] : direction[0][k];
+            direction[1][k] = takes ? y[c][k] : direction[1][k];
+            direction[2][k] = takes ? z[c][k] : direction[2][k];
+            chosen[k] = takes ? weight[c][k] : chosen[k];
+        }
+    }
+    for (int k = 0; k < count; ++k) probability[k] *= chosen[k] * float(kCandidates) / sum[k];
 }
 
 }  // namespace detail

@@ -25,7 +25,6 @@ public:
 
     // A further level. It knows nothing of the rays that came before it.
     Volume& addLevel(Level level) { return volumes_.emplace_back(std::move(level), settings_.layout, settings_.parts); }
-    void removeFirstLevel() { volumes_.pop_front(); }
     std::deque<Volume>& volumes() { return volumes_; }
     const std::deque<Volume>& volumes() const { return volumes_; }
 

@@ -127,7 +127,7 @@ private:
     double importance(const ClvRsmTexel& texel) const {
         const double sum = double(texel.flux.x) + texel.flux.y + texel.flux.z;
         if (texel.valid == 0u || !(sum > 0.0 && sum < 1e30)) return 0.0;
-        return guide_ ? sum * guide_->texelWeight(guide_->cellAt(texel.position)) : sum;
+        return guide_ ? sum * guide_->texelWeight(texel.position) : sum;
     }
 
     const RayGuide* guide_ = nullptr;
