@@ -34,6 +34,7 @@ int runCommandLine(int argc, const char* const* argv) {
     addIrradianceCommand(app);
     addReferenceCommand(app);
     addRenderCommand(app);
+    addPlanCommand(app);
     addScenesCommand(app);
     addInfoCommand(app);
     try {

@@ -11,6 +11,7 @@ int runCommandLine(int argc, const char* const* argv);
 // Each adds one subcommand that runs while the arguments are parsed.
 void addInfoCommand(CLI::App& app);
 void addIrradianceCommand(CLI::App& app);
+void addPlanCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);

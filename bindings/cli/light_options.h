@@ -13,7 +13,7 @@ namespace clv {
 struct LightOptions {
     bool allBounces = false;
     int resolution = 0;                     // about resolution^3 cells; 0: chosen by the library
-    std::uint64_t rays = 4u << 20;          // in all: every frame, sweep and bounce; counts where seconds is 0
+    std::uint64_t rays = 4u << 20;          // segments traced in all: pilots, every frame, sweep and bounce; counts where seconds is 0
     double seconds = 0.0;                   // run time, s; 0: not set
     std::uint32_t frames = 1;               // the rays are shared out among as many frames, merged one after the other
     uint storage = kClvStorageCube9;

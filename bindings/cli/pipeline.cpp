@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bindings/cli/progress.h"
+#include "bindings/cli/scene_facts.h"
 #include "bindings/embree/rsm.h"
 #include "bindings/embree/surface_samples.h"
 #include "bindings/embree/visible_points.h"
@@ -15,18 +16,15 @@
 #include "clv/cpu/lookup_table.h"
 #include "clv/cpu/resolution.h"
 #include "clv/cpu/still_lighting.h"
-#include "clv/plan/needs.h"
 
 namespace clv {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
 constexpr std::size_t kFirstRound = 64 << 10;      // rays
 constexpr std::size_t kLargestRound = 512 << 10;   // rays
-constexpr std::size_t kManyRays = 512 << 10;       // from which on the volumes are filled in more pieces
-constexpr std::size_t kJudges = 3000;              // receivers that choose the resolution
+constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
 constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
@@ -74,17 +72,12 @@ class LightTexels {
 public:
     LightTexels(const EmbreeScene& scene, std::uint32_t seed, const ParallelFor& parallelFor) : scene_(scene), seed_(seed), parallelFor_(parallelFor) {
         for (const NamedLight& light : scene.scene().lights) {
-            const vec3 i = light.light.intensity;
-            if (std::max(std::max(i.x, i.y), i.z) > 0.0f) lights_.push_back(light.light);
+            if (sendsLight(light)) lights_.push_back(light.light);
         }
-        if (lights_.empty()) return;
         // 256^2 texels a light, fewer where there are many lights.
         while (side_ > 32 && lights_.size() * side_ * side_ > 8u * 256u * 256u) side_ /= 2;
         texels_.resize(lights_.size() * side_ * side_);
     }
-    // Whether any light is on.
-    bool any() const { return !lights_.empty(); }
-
     void render(std::uint32_t pass, TexelSampler& sampler, const RayGuide* guide) {
         const std::size_t each = std::size_t(side_) * side_;
         for (std::size_t k = 0; k < lights_.size(); ++k) {
@@ -106,10 +99,9 @@ class LightRun {
 public:
     LightRun(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
              std::span<const ReferencePoint> points)
-        : scene_(scene), options_(options), seed_(seed), parallelFor_(parallelFor), points_(receiversOf(points)) {
-        automatic_ = options.resolution == 0;
-        report_.channels = needsColour(scene) ? 3 : 1;
-        layout_ = {options.storage, report_.channels};
+        : scene_(scene), options_(options), seed_(seed), parallelFor_(parallelFor), points_(receiversOf(points)),
+          needs_(planNeeds(sceneFacts(scene, options))), automatic_(needs_.halves > 1), layout_{options.storage, needs_.channels} {
+        if (!worksAtAll()) return;
         clock_.time("setup", [&] {
             embree_.emplace(scene);
             if (!options.proxy.empty()) {
@@ -117,18 +109,20 @@ public:
                 moveTo(*proxyScene_, scene.anchor);
                 proxy_.emplace(*proxyScene_);
             }
-            if (options.allBounces) surfaces_ = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
-            chooseJudges();
+            if (needs_.feedback) surfaces_ = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
+            if (automatic_) chooseJudges();
         });
         texels_.emplace(*embree_, seed, parallelFor);
     }
 
     PipelineReport run(std::span<glm::vec3> out) {
         std::fill(out.begin(), out.end(), glm::vec3(0.0f));
-        if (texels_->any() && !points_.empty()) {
+        if (worksAtAll()) {
+            report_.channels = needs_.channels;
+            report_.sweeps = 1;
             firstBounce();
             evaluate(*lighting_, out);
-            if (options_.allBounces) furtherBounces(out);
+            if (needs_.feedback) furtherBounces(out);
         }
         report_.stages = clock_.stages;
         report_.frameSeconds = clock_.of({"guide", "rays", "trace", "inject", "merge", "choose", "evaluate"});
@@ -136,13 +130,7 @@ public:
     }
 
 private:
-    static bool isGrey(const vec3& v) { return v.x == v.y && v.y == v.z; }
-    static bool needsColour(const Scene& scene) {
-        SceneFacts facts;
-        facts.greyLights = std::all_of(scene.lights.begin(), scene.lights.end(), [](const NamedLight& l) { return isGrey(l.light.intensity); });
-        facts.greySurfaces = std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return isGrey(m.albedo) && m.texture < 0; });
-        return planNeeds(facts).channels == 3;
-    }
+    bool worksAtAll() const { return needs_.stages && !points_.empty(); }
     static void moveTo(Scene& scene, const glm::dvec3& anchor) {
         const vec3 offset(scene.anchor - anchor);
         for (vec3& p : scene.positions) p += offset;
@@ -152,7 +140,6 @@ private:
 
     // The receivers by which levels are judged: some of the points, and with few of them some that the cameras see.
     void chooseJudges() {
-        if (!automatic_) return;
         const std::size_t count = std::min(points_.size(), kJudges);
         for (std::size_t k = 0; k < count; ++k) judges_.push_back(points_[k * points_.size() / count]);
         if (count < kFewJudges) {
@@ -164,8 +151,7 @@ private:
     Level makeLevel(int resolution) {
         Level level;
         clock_.time("setup", [&] {
-            const vec3 shift(fract(vec3(float(options_.cellShift[0]), float(options_.cellShift[1]), float(options_.cellShift[2]))));
-            const ClvVolume volume = volumeOverBounds(scene_.bounds.lo, scene_.bounds.hi, resolution, options_.storage, shift);
+            const ClvVolume volume = volumeOver(scene_, resolution, options_);
             std::vector<std::uint8_t> needed = neededCells(volume, points_);
             for (const auto* more : {&judges_, &surfaces_.receivers}) {
                 const auto also = neededCells(volume, *more);
@@ -180,28 +166,30 @@ private:
     Tracer tracer(const std::unique_ptr<StillLighting>& lighting) {
         return [this, &lighting](std::span<ClvRay> rays) {
             const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
-            if (!options_.allBounces) return target.trace(rays);
+            if (!needs_.feedback) return target.trace(rays);
             const std::size_t offset = rays.data() - lighting->currentRays().data();
             target.trace(rays, std::span(hits_).subspan(offset, rays.size()));
         };
     }
 
-    std::unique_ptr<StillLighting> makeLighting(std::unique_ptr<StillLighting>& self, int halves, std::size_t rays, std::uint32_t stream) {
+    std::unique_ptr<StillLighting> makeLighting(std::unique_ptr<StillLighting>& self, int halves, std::uint64_t rays, std::uint32_t stream) {
         StillLightingSettings settings;
         settings.layout = layout_;
-        settings.parts.halves = halves;
-        settings.parts.chunks = rays >= kManyRays ? 4 : 2 / halves;
+        settings.parts = volumeParts(halves, rays);
         settings.seed = clvHashCombine(seed_, stream);
         settings.originOffset = embree_->surfaceOffset();
         return std::make_unique<StillLighting>(settings, tracer(self), parallelFor_);
     }
 
-    void trace(StillLighting& lighting, const TexelSampler& sampler, std::size_t count) {
+    // Traces `count` rays, rounded up so that all parts of the volume get as many. Returns how many that are.
+    std::size_t trace(StillLighting& lighting, const TexelSampler& sampler, std::size_t count) {
         clock_.time("rays", [&] { lighting.rays(sampler, count); });
-        if (options_.allBounces) hits_.resize(std::max(hits_.size(), lighting.currentRays().size()));
+        if (needs_.feedback) hits_.resize(std::max(hits_.size(), lighting.currentRays().size()));
         clock_.time("trace", [&] { lighting.trace(); });
         report_.rays += lighting.currentRays().size();
+        return lighting.currentRays().size();
     }
+
     // A few rays show where the light goes; where much of it leaves the scene, the others are guided.
     std::size_t pilot(std::uint64_t budget) {
         TexelSampler sampler;
@@ -219,6 +207,9 @@ private:
             });
             guide_->learn(rays);
             guide_->finish();
+            report_.shareThatMeets = guide_->share();
+            report_.guided = guide_->worthwhile();
+            if (!report_.guided) guide_.reset();
         });
         report_.rays += count;
         pilots_ = count;
@@ -242,7 +233,7 @@ private:
 
     void firstBounce() {
         std::uint64_t budget = options_.seconds > 0.0 ? ~std::uint64_t(0) : options_.allBounces ? std::max<std::uint64_t>(options_.rays / 2, 1) : options_.rays;
-        lighting_ = makeLighting(lighting_, automatic_ ? 2 : 1, std::size_t(std::min<std::uint64_t>(budget, kManyRays)), 1);
+        lighting_ = makeLighting(lighting_, needs_.halves, budget, 1);
         clock_.time("setup", [&] {
             lighting_->reserveRays(std::size_t(std::min<std::uint64_t>(budget, options_.frames > 1 ? budget / options_.frames : kFirstRound)));
             estimates_.resize(2);
@@ -258,27 +249,38 @@ private:
         const std::uint64_t pilots = pilot(options_.seconds > 0.0 ? kFirstRound : budget);
         if (options_.seconds <= 0.0) budget -= pilots;
         std::uint64_t done = 0;
+        // While levels are judged all of them are filled, so this ends with the first quarter of the rays.
+        const std::uint64_t judged = automatic_ ? std::max<std::uint64_t>(budget / 4, 1) : 0;
         std::size_t round = options_.frames > 1 ? std::size_t((budget + options_.frames - 1) / options_.frames) : kFirstRound;
+        if (automatic_ && done < judged) round = std::size_t(std::min<std::uint64_t>(round, judged));
+        std::uint64_t sinceRsm = 0;
+        bool settled = false;
         const double timeForThis = options_.allBounces ? 0.5 * options_.seconds : options_.seconds;
         for (std::uint32_t pass = 0; done < budget; ++pass) {
-            const std::size_t count = std::size_t(std::min<std::uint64_t>(round, budget - done));
             const double before = progress.seconds();
-            clock_.time("rsm", [&] { texels_->render(pass, sampler, guide_ ? &*guide_ : nullptr); });
+            if (pass == 0 || sinceRsm >= kFirstRound) {
+                clock_.time("rsm", [&] { texels_->render(pass, sampler, guide_ ? &*guide_ : nullptr); });
+                sinceRsm = 0;
+            }
             if (sampler.empty()) return;
-            trace(*lighting_, sampler, count);
+            const std::size_t count = trace(*lighting_, sampler, std::size_t(std::min<std::uint64_t>(round, budget - done)));
             for (Volume& volume : lighting_->volumes()) inject(*lighting_, volume);
             done += count;
-            if (options_.allBounces) {
+            sinceRsm += count;
+            if (needs_.feedback) {
                 const auto [flux, on] = sentOn(*lighting_);
                 sent_ += flux * double(count), sentOn_ += on * double(count);
             }
             const double now = progress.seconds();
             // With a budget of time, as many rays are still to come as the pace so far promises.
             const double target = options_.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
-            if (automatic_) judge(target);
+            if (automatic_ && !settled) {
+                settled = double(done) >= 0.25 * target;
+                judge(target, settled);
+            }
             if (options_.seconds > 0.0 && now + (now - before) > timeForThis) break;
             progress.update(options_.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
-            if (options_.frames <= 1) round = std::min(2 * round, kLargestRound);
+            if (options_.frames <= 1) round = settled ? kLargestRound : std::min(2 * round, kLargestRound);
         }
         sent_ /= double(done), sentOn_ /= double(done);
         for (const Volume& volume : lighting_->volumes()) report_.bytes += volume.bytes(), report_.slots += volume.level().slots.size();
@@ -299,9 +301,16 @@ private:
         mix_[resolutions_.size() - 1] = 1.0;
     }
 
+    void removeLevel(std::size_t l) {
+        lighting_->volumes().erase(lighting_->volumes().begin() + std::ptrdiff_t(l));
+        lookups_.erase(lookups_.begin() + std::ptrdiff_t(l));
+        resolutions_.erase(resolutions_.begin() + std::ptrdiff_t(l));
+        std::rotate(mix_.begin() + std::ptrdiff_t(l), mix_.begin() + std::ptrdiff_t(l) + 1, mix_.end());
+    }
+
     // Chooses the levels to show when all rays are in, lets a finer level join while the finest one is the best, and drops coarse ones
-    // that no longer count.
-    void judge(double targetRays) {
+    // that no longer count; once the choice is settled, all that do not count.
+    void judge(double targetRays, bool settled) {
         for (;;) {
             std::vector<double> factor;
             clock_.time("choose", [&] {
@@ -322,11 +331,9 @@ private:
             addLevel(*next);
             inject(*lighting_, lighting_->volumes().back());
         }
-        while (resolutions_.size() > 2 && mix_[0] == 0.0 && mix_[1] == 0.0) {
-            lighting_->removeFirstLevel();
-            lookups_.erase(lookups_.begin());
-            resolutions_.erase(resolutions_.begin());
-            std::rotate(mix_.begin(), mix_.begin() + 1, mix_.end());
+        for (std::size_t l = resolutions_.size(); l-- > 0;) {
+            const bool farBelow = l + 1 < resolutions_.size() && mix_[l + 1] == 0.0 && resolutions_.size() > 2;
+            if (mix_[l] == 0.0 && (settled || farBelow)) removeLevel(l);
         }
     }
 
@@ -414,12 +421,11 @@ private:
             const std::size_t count = std::max<std::size_t>(1, std::size_t(budget * std::pow(expected, sweep - 2) / spread));
             if (!target) {
                 target = makeLighting(target, 1, count, 0x100u);
-                for (const Volume& volume : lighting_->volumes()) target->addLevel(volume.level());
+                for (const Volume& volume : lighting_->volumes()) report_.bytes += target->addLevel(volume.level()).bytes();
             }
             for (Volume& volume : target->volumes()) volume.reset();
             for (std::size_t done = 0; done < count;) {
-                const std::size_t round = std::min(count - done, kLargestRound);
-                trace(*target, sampler, round);
+                const std::size_t round = trace(*target, sampler, std::min(count - done, kLargestRound));
                 for (std::size_t l = 0; l < target->volumes().size(); ++l) {
                     if (mix_[l] > 0.0) inject(*target, target->volumes()[l]);
                 }
@@ -455,8 +461,9 @@ private:
     std::uint32_t seed_;
     const ParallelFor& parallelFor_;
     std::vector<ClvReceiver> points_, judges_;
-    bool automatic_;
-    DepositLayout layout_;
+    const Needs needs_;
+    const bool automatic_;  // the resolution is chosen here
+    const DepositLayout layout_;
     StageClock clock_;
     PipelineReport report_;
     std::optional<EmbreeScene> embree_, proxy_;
@@ -490,6 +497,8 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["rays"] = run.rays;
     report["sweeps"] = run.sweeps;
     report["channels"] = run.channels;
+    report["share_of_rays_that_meet"] = run.shareThatMeets;
+    report["guided"] = run.guided;
     report["slots"] = run.slots;
     report["bytes"] = run.bytes;
     Report stages = Report::object();

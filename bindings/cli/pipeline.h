@@ -19,12 +19,14 @@ struct PipelineReport {
     // shadow maps; the others make up the frames.
     std::vector<std::pair<std::string, double>> stages;
     double frameSeconds = 0.0;             // rays to evaluate, all frames together
-    std::uint64_t rays = 0;                // segments traced after the first bounce
-    std::uint32_t sweeps = 1;              // bounces that were traced
+    std::uint64_t rays = 0;                // segments traced after the first bounce, pilots included
+    std::uint32_t sweeps = 0;              // bounces that were traced
     std::vector<std::pair<int, double>> levels;  // resolution and weight of each level that is shown
     std::size_t bytes = 0;                 // of volumes and their tables
     std::size_t slots = 0;
-    int channels = 3;
+    int channels = 0;                      // 0: nothing was stored
+    double shareThatMeets = 0.0;           // of the pilot rays: what remains leaves the scene
+    bool guided = false;                   // whether the other rays are sent to where the pilots met something
     std::vector<std::string> warnings;
 };
 

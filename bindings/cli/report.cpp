@@ -27,7 +27,7 @@ std::string cellText(const Report& value) {
 }
 
 // Objects of the same keys, a line each, under a line of keys.
-std::string tableText(const Report& rows) {
+std::string tableText(const Report& rows, const std::string& indent) {
     std::vector<std::string> keys;
     std::vector<std::size_t> widths;
     for (const auto& [key, value] : rows.front().items()) {
@@ -39,7 +39,7 @@ std::string tableText(const Report& rows) {
     const auto addLine = [&](auto&& cell) {
         std::string line;
         for (std::size_t i = 0; i < keys.size(); ++i) line += fmt::format("{:<{}}  ", cell(keys[i]), widths[i]);
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+        text += indent + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     };
     addLine([](const std::string& key) { return key; });
     for (const Report& row : rows) addLine([&](const std::string& key) { return cellText(row.at(key)); });
@@ -54,7 +54,7 @@ std::string linesText(const Report& report, const std::string& indent) {
         if (value.is_object())
             text += indent + key + "\n" + linesText(value, indent + "  ");
         else if (isTable(value))
-            text += tableText(value);
+            text += indent + key + "\n" + tableText(value, indent + "  ");
         else
             text += fmt::format("{}{:<{}}  {}\n", indent, key, width, cellText(value));
     }

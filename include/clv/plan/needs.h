@@ -12,8 +12,7 @@ struct SceneFacts {
     bool anyLight = true;         // some light has an intensity above 0
     bool lightsMove = false;      // some light moves, turns or changes
     bool cameraMoves = false;     // the volumes follow a camera; otherwise one volume holds the scene
-    int cascades = 1;             // asked for
-    int cascadesInBounds = 1;     // that still add space inside the scene's bounds
+    int cascadesInBounds = 1;     // cascades that still add space inside the scene's bounds
     bool allBounces = false;
     bool resolutionGiven = false;
 };
@@ -26,6 +25,7 @@ struct Decision {
 };
 
 struct Needs {
+    bool stages = true;      // any at all
     int channels = 3;        // 1: one channel serves all three
     bool dynamicity = true;  // a value a side and slot, and its part of inject and merge
     bool scrolling = true;   // toroidal addressing of volumes that follow the camera
@@ -41,16 +41,17 @@ inline Needs planNeeds(const SceneFacts& facts) {
         needs.decisions.push_back({name, needed, needed ? because : whyNot});
         return needed;
     };
+    needs.stages = decide("stages", facts.anyLight, "some light is on", "no light is on: the answer is zero, nothing is traced or allocated");
+    if (!needs.stages) return needs;
     const bool grey = facts.greyLights && facts.greySurfaces;
-    decide("light", facts.anyLight, "some light is on", "no light is on: the answer is zero, and no stage runs");
     needs.channels = decide("colour", !grey, "lights or surfaces have colour", "lights and surfaces are grey: one channel serves all three") ? 3 : 1;
     needs.dynamicity = decide("dynamicity", facts.lightsMove, "lights move", "no light moves: history is a plain mean");
     needs.scrolling = decide("scrolling", facts.cameraMoves, "the volumes follow the camera", "no camera moves: one volume holds the scene");
     const bool moreCascades = facts.cameraMoves && facts.cascadesInBounds > 1;
-    needs.cascades = decide("cascades", moreCascades, "the scene reaches beyond the first one", "the first volume holds the scene") ? facts.cascadesInBounds : 1;
+    needs.cascades = decide("further cascades", moreCascades, "the scene reaches beyond the first one", "the first volume holds the scene") ? facts.cascadesInBounds : 1;
     needs.halves = decide("two halves", !facts.resolutionGiven, "they judge which resolution errs least", "the resolution is given") ? 2 : 1;
     needs.feedback = decide("feedback", facts.allBounces, "all bounces are asked for", "one bounce is asked for: surfaces send nothing on");
-    decide("cells away from surfaces", false, "", "nothing reads cells farther than a lookup reaches from a point: they have no record");
+    decide("cells that nothing reads", false, "", "a cell farther from every point than a lookup reaches has no record");
     return needs;
 }
 
