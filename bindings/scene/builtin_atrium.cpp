@@ -206,8 +206,8 @@ Scene makeAtrium() {
     addArcades(builder, materials.stone);
     addDrapes(builder);
 
-    // A slanting sun that lights the north arcade through the open top, and shines through its upper arches.
-    builder.addLight("sun", makeDirectionalLight({0.30f, -0.75f, -0.62f}, {10.0f, 9.5f, 8.6f}), {0, 20, 0});
+    // A slanting sun that lights the floor of the court.
+    builder.addLight("sun", makeDirectionalLight({0.2f, -1.0f, -0.1f}, {10.0f, 9.5f, 8.6f}), {0, 20, 0});
 
     addAtriumCamera(builder, "court", {-9.6, 1.7, 1.3}, {8.0, 3.4, -1.2}, 1.0f);
     addAtriumCamera(builder, "ground arcade", {-12.6, 1.8, -5.0}, {2.0, 2.2, -3.4}, 1.0f);
