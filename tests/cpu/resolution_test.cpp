@@ -1,0 +1,118 @@
+// Two halves of the rays judge levels whose bias and noise are known here.
+#include <gtest/gtest.h>
+
+#include "clv/cpu/resolution.h"
+#include "support/chi_square.h"
+
+namespace clv::test {
+namespace {
+
+constexpr std::size_t kReceivers = 20000;
+
+// About standard normal: the sum of twelve uniform numbers, less its mean (its variance is 1 exactly).
+float noiseAt(uint seed, std::size_t index) {
+    float sum = -6.0f;
+    for (uint k = 0; k < 12; ++k) sum += randomUnit(seed, uint(index) * 12 + k);
+    return sum;
+}
+
+// Receivers whose truth is 1; bias alternates in sign from receiver to receiver, noise differs from half to half.
+HalfEstimates levelWith(float bias, float noiseOfHalf, uint seed, std::size_t receivers = kReceivers) {
+    HalfEstimates level;
+    for (uint half = 0; half < 2; ++half) {
+        for (std::size_t i = 0; i < receivers; ++i) {
+            const float value = 1.0f + (i % 2 == 0 ? bias : -bias);
+            const auto noise = [&](std::size_t c) { return noiseOfHalf * noiseAt(seed + half, 3 * i + c); };
+            level.half[half].push_back(vec3(value + noise(0), value + noise(1), value + noise(2)));
+        }
+    }
+    return level;
+}
+
+TEST(Resolution, halvesTellBiasFromNoise) {
+    const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.1f, 0.2f, 20), levelWith(0.0f, 0.4f, 30)};
+    const LevelErrors errors = judgeLevels(levels);
+    ASSERT_EQ(errors.count, 3);
+    const double bias[] = {0.3, 0.1, 0.0}, noise[] = {0.1, 0.2, 0.4};
+    // Sixty thousand values: the means of products stray by about noise^2 / sqrt(60000).
+    constexpr double kSlack = 0.005;
+    for (int l = 0; l < 3; ++l) {
+        // The mean of two halves has half the variance of one.
+        EXPECT_NEAR(errors.noise[l][l], noise[l] * noise[l] / 2.0, kSlack) << l;
+        EXPECT_NEAR(errors.bias[l][l], bias[l] * bias[l], kSlack) << l;
+        EXPECT_NEAR(errors.meanSquare(l), errors.bias[l][l] + errors.noise[l][l], 1e-12);
+    }
+    EXPECT_NEAR(errors.bias[0][1], 0.03, kSlack);
+    EXPECT_NEAR(errors.noise[0][1], 0.0, kSlack);
+    EXPECT_EQ(errors.bias[0][1], errors.bias[1][0]);
+}
+
+TEST(Resolution, everySecondReceiverSaysTheSame) {
+    const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.0f, 0.2f, 20)};
+    const LevelErrors all = judgeLevels(levels), even = judgeLevels(levels, 0, 2), odd = judgeLevels(levels, 1, 2);
+    EXPECT_NEAR(0.5 * (even.noise[0][0] + odd.noise[0][0]), all.noise[0][0], 1e-9);
+    EXPECT_NEAR(even.bias[0][0], odd.bias[0][0], 0.01);
+}
+
+TEST(Resolution, moreRaysCutTheNoiseButNotTheBias) {
+    const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.0f, 0.4f, 20)};
+    const LevelErrors now = judgeLevels(levels), later = now.withRays(std::vector<double>{4.0, 16.0});
+    EXPECT_DOUBLE_EQ(later.noise[0][0], now.noise[0][0] / 4.0);
+    EXPECT_DOUBLE_EQ(later.noise[1][1], now.noise[1][1] / 16.0);
+    EXPECT_DOUBLE_EQ(later.noise[0][1], now.noise[0][1] / 8.0);
+    EXPECT_EQ(later.bias, now.bias);
+}
+
+LevelErrors diagonal(std::vector<double> bias, std::vector<double> noise) {
+    LevelErrors errors;
+    errors.count = int(bias.size());
+    for (int l = 0; l < errors.count; ++l) errors.bias[l][l] = bias[l], errors.noise[l][l] = noise[l];
+    return errors;
+}
+
+TEST(Resolution, theLevelThatErrsLeastIsTheBest) {
+    EXPECT_EQ(bestLevel(diagonal({4.0, 1.0, 0.0}, {0.1, 1.0, 3.0})), 1);
+    EXPECT_EQ(bestLevel(diagonal({4.0, 1.0, 0.0}, {0.1, 1.0, 1.0})), 2);
+    EXPECT_EQ(bestLevel(diagonal({1.0, 1.0, 0.0}, {0.1, 1.0, 3.0})), 0);
+}
+
+TEST(Resolution, independentLevelsMixByTheInverseOfTheirErrors) {
+    const LevelMix mix = bestMix(diagonal({0.0, 0.0, 0.0}, {1.0, 2.0, 4.0}));
+    EXPECT_NEAR(mix[0], 4.0 / 7.0, 1e-12);
+    EXPECT_NEAR(mix[1], 2.0 / 7.0, 1e-12);
+    EXPECT_NEAR(mix[2], 1.0 / 7.0, 1e-12);
+}
+
+TEST(Resolution, noWeightIsNegativeAndTheirSumIsOne) {
+    // Noise so alike that the free optimum would subtract the noisier level.
+    LevelErrors errors = diagonal({0.0, 0.0}, {1.0, 4.0});
+    errors.noise[0][1] = errors.noise[1][0] = 1.9;
+    const LevelMix mix = bestMix(errors);
+    EXPECT_EQ(mix[0], 1.0);
+    EXPECT_EQ(mix[1], 0.0);
+}
+
+TEST(Resolution, darknessIsShownByTheFinestLevel) {
+    const std::vector<HalfEstimates> dark(3, levelWith(0.0f, 0.0f, 1, 16));
+    EXPECT_EQ(bestMix(judgeLevels(dark))[2], 1.0);
+}
+
+TEST(Resolution, aLevelStandsAloneUnlessAMixIsClearlyBetter) {
+    const std::vector<double> same(2, 1.0);
+    // The coarse level is biased beyond use: nothing to gain.
+    const LevelMix alone = chooseLevels(std::vector<HalfEstimates>{levelWith(2.0f, 0.1f, 10), levelWith(0.0f, 0.2f, 20)}, same);
+    EXPECT_EQ(alone[1], 1.0);
+    // Two levels of equal, independent noise: the mean of both halves the squared error.
+    const LevelMix both = chooseLevels(std::vector<HalfEstimates>{levelWith(0.0f, 0.3f, 30), levelWith(0.0f, 0.3f, 40)}, same);
+    EXPECT_GT(both[0], 0.2);
+    EXPECT_NEAR(both[0] + both[1], 1.0, 1e-12);
+}
+
+TEST(Resolution, raysToComeFavourTheFinerLevel) {
+    const std::vector<HalfEstimates> levels = {levelWith(0.2f, 0.02f, 10), levelWith(0.0f, 0.9f, 20)};
+    EXPECT_GT(chooseLevels(levels, std::vector<double>(2, 1.0))[0], 0.9);
+    EXPECT_GT(chooseLevels(levels, std::vector<double>(2, 1000.0))[1], 0.9);
+}
+
+}  // namespace
+}  // namespace clv::test
