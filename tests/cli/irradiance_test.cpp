@@ -125,7 +125,7 @@ TEST_F(Irradiance, tracesAsManyRaysAsAreAskedFor) {
             // Each sweep rounds up for itself.
             const int sweeps = report.at("sweeps");
             EXPECT_LE(report.at("rays"), rays + kRounding * sweeps) << report;
-            if (sweeps == 1) EXPECT_GE(report.at("rays"), rays) << report;
+            EXPECT_GE(report.at("rays"), sweeps == 1 ? rays : rays / 2) << report;
         }
     }
 }
@@ -190,7 +190,8 @@ TEST_F(Irradiance, lightsOfAFileReplaceThoseOfTheScene) {
     EXPECT_NEAR(with("[2,2,2]"), 2.0 * white, 1e-4 * white);
     with("[0,1,0]");
     for (const std::string& row : linesOf(read(file("r.csv")))) {
-        if (!row.starts_with("px")) EXPECT_EQ(irradianceOf(row)[0], 0.0) << row;
+        if (row.starts_with("px")) continue;
+        EXPECT_EQ(irradianceOf(row)[0], 0.0) << row;
     }
 }
 
@@ -198,7 +199,8 @@ TEST_F(Irradiance, noLightMeansZerosAndNoStageRuns) {
     const std::string off = write("l.json", R"({"lights":[{"type":"point","position":[0.28,0.4,0.28],"intensity":[0,0,0]}]})");
     const json report = run("cornell", rows_, {"--lights", off, "--bounces", "all"});
     for (const std::string& row : linesOf(read(file("r.csv")))) {
-        if (!row.starts_with("px")) EXPECT_EQ(irradianceOf(row), (std::array{0.0, 0.0, 0.0})) << row;
+        if (row.starts_with("px")) continue;
+        EXPECT_EQ(irradianceOf(row), (std::array{0.0, 0.0, 0.0})) << row;
     }
     EXPECT_TRUE(report.at("stages").empty());
     EXPECT_EQ(report.at("bytes"), 0);
