@@ -65,7 +65,7 @@ public:
 
     // Share of the rays that met something.
     double share() const { return share_; }
-    // A closed scene has nothing to gain.
+    // Where most light stays in the scene, there is less to gain than the choice of directions costs.
     bool worthwhile() const { return share_ < kMostShare; }
 
     // By which texels at a position are preferred.
@@ -82,7 +82,7 @@ public:
 private:
     static constexpr double kPrior = 8.0;         // rays that the expectation of a bin counts for
     static constexpr double kLeastShare = 0.03;   // keeps the flux of a ray that was not expected to meet anything within bounds
-    static constexpr double kMostShare = 0.9;
+    static constexpr double kMostShare = 0.75;
 
     // The axis along which the direction is longest, and the signs of all three components. Without branches, for vectors.
     static int binOf(float x, float y, float z) {
