@@ -7,5 +7,5 @@ source scripts/setup.sh
 
 installPackages "${buildPackages[@]}"
 buildPreset release clv_cli
-build/release/clv render --scene atrium --rays 16M --samples 256 --out demo-out
+build/release/clv render --scene atrium --bounces all --rays 16M --samples 256 --out demo-out
 echo "The pictures are in $PWD/demo-out: direct, indirect, combined and reference as .png and .exr, and error.png."

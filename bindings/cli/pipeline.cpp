@@ -121,7 +121,7 @@ public:
             report_.channels = needs_.channels;
             report_.sweeps = 1;
             firstBounce();
-            evaluate(*lighting_, out);
+            evaluate(firstLight(), out);
             if (needs_.feedback) furtherBounces(out);
         }
         report_.stages = clock_.stages;
@@ -292,8 +292,7 @@ private:
     void addLevel(int resolution) {
         Level level = makeLevel(resolution);
         clock_.time("setup", [&] {
-            // Points, judges and surfaces stand still: their weights are found once.
-            lookups_.push_back({{level, points_, {}, parallelFor_}, {level, judges_, {}, parallelFor_}, {level, surfaces_.receivers, {}, parallelFor_}});
+            lookups_.push_back(makeLookups(level));
             lighting_->addLevel(std::move(level));
         });
         resolutions_.push_back(resolution);
@@ -353,36 +352,46 @@ private:
         });
     }
 
+    // Points, judges and surfaces stand still: their weights are found once a level.
     struct Lookups {
         LookupTable points, judges, surfaces;
     };
+    Lookups makeLookups(const Level& level) const {
+        return {{level, points_, {}, parallelFor_}, {level, judges_, {}, parallelFor_}, {level, surfaces_.receivers, {}, parallelFor_}};
+    }
+
+    // Volumes that hold light, and how they are read.
+    struct Lit {
+        const StillLighting* lighting;
+        const std::vector<Lookups>* lookups;  // a level each
+        LevelMix mix;
+    };
 
     // The chosen levels, mixed: E at receivers is added to `sum`, times `scale`.
-    void read(const StillLighting& lighting, LookupTable Lookups::*which, std::span<const ClvReceiver> receivers, float scale,
-              std::span<glm::vec3> sum) const {
+    void read(const Lit& lit, LookupTable Lookups::*which, std::span<const ClvReceiver> receivers, float scale, std::span<glm::vec3> sum) const {
         forReceivers(receivers.size(), [&](std::size_t i) {
             const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, receivers[i].normal);
-            for (std::size_t l = 0; l < lighting.volumes().size(); ++l) {
-                if (mix_[l] == 0.0) continue;
-                const Volume& volume = lighting.volumes()[l];
+            for (std::size_t l = 0; l < lit.lighting->volumes().size(); ++l) {
+                if (lit.mix[l] == 0.0) continue;
+                const Volume& volume = lit.lighting->volumes()[l];
                 const int halves = volume.parts().halves;
                 for (int half = 0; half < halves; ++half) {
-                    sum[i] += (lookups_[l].*which).irradiance(i, layout_, volume.history(half), coefficients) * (scale * float(mix_[l]) / float(halves));
+                    sum[i] += ((*lit.lookups)[l].*which).irradiance(i, layout_, volume.history(half), coefficients) * (scale * float(lit.mix[l]) / float(halves));
                 }
             }
         });
     }
-    void evaluate(const StillLighting& lighting, std::span<glm::vec3> out, float scale = 1.0f) {
-        clock_.time("evaluate", [&] { read(lighting, &Lookups::points, points_, scale, out); });
+    void evaluate(const Lit& lit, std::span<glm::vec3> out, float scale = 1.0f) {
+        clock_.time("evaluate", [&] { read(lit, &Lookups::points, points_, scale, out); });
     }
 
     // Surfaces send on what the volume says they receive; the sum over the surfaces is set to what the rays brought there, so that no
     // error of the volume's total grows from bounce to bounce.
-    bool emitFrom(const StillLighting& lighting, const glm::dvec3& power, TexelSampler& sampler) {
+    bool emitFrom(const Lit& lit, const glm::dvec3& power, TexelSampler& sampler) {
         bool any = false;
         clock_.time("rsm", [&] {
             std::vector<glm::vec3> irradiance(surfaces_.receivers.size(), glm::vec3(0.0f));
-            read(lighting, &Lookups::surfaces, surfaces_.receivers, 1.0f, irradiance);
+            read(lit, &Lookups::surfaces, surfaces_.receivers, 1.0f, irradiance);
             emitters_.assign((irradiance.size() + kTexelWidth - 1) / kTexelWidth * kTexelWidth, ClvRsmTexel{});
             glm::dvec3 sum(0.0);
             for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces_.albedo[k] * irradiance[k]) * double(surfaces_.area);
@@ -398,6 +407,15 @@ private:
         return any;
     }
 
+    Lit firstLight() const { return {lighting_.get(), &lookups_, mix_}; }
+
+    // Further bounces have fewer rays and smoother light than the first: where the resolution is not given, they get a coarser level
+    // that keeps its noise as low.
+    Level furtherLevel(double rays) {
+        if (!automatic_) return lighting_->volumes().front().level();
+        return makeLevel(rays < kRaysForMiddle ? kResolutions[0] : rays < kRaysForFine ? kResolutions[1] : kResolutions[2]);
+    }
+
     static double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
     void furtherBounces(std::span<glm::vec3> out) {
@@ -409,26 +427,28 @@ private:
         const double expected = std::clamp(ratio, 0.02, 0.98);
         const double spread = (1.0 - std::pow(expected, kMostSweeps - 1)) / (1.0 - expected);
         const double budget = options_.seconds > 0.0 ? double(report_.rays) : double(options_.rays - std::min(options_.rays, report_.rays));
-        // Two sets of volumes in turn: one is read while the other is filled.
+        const Level level = furtherLevel(budget);
+        std::vector<Lookups> lookups;
+        clock_.time("setup", [&] { lookups.push_back(makeLookups(level)); });
+        // Two volumes in turn: one is read while the other is filled.
         std::unique_ptr<StillLighting> pair[2];
-        const StillLighting* source = lighting_.get();
+        Lit source = firstLight();
         TexelSampler sampler;
         for (int sweep = 2; sweep <= kMostSweeps; ++sweep) {
             const double left = ratio < 1.0 ? total(power) / (1.0 - ratio) : total(power);
             if (!(total(power) > 0.0) || left < kNegligible * first) return;
-            if (!emitFrom(*source, power, sampler)) return;
+            if (!emitFrom(source, power, sampler)) return;
             std::unique_ptr<StillLighting>& target = pair[sweep % 2];
             const std::size_t count = std::max<std::size_t>(1, std::size_t(budget * std::pow(expected, sweep - 2) / spread));
             if (!target) {
-                target = makeLighting(target, 1, count, 0x100u);
-                for (const Volume& volume : lighting_->volumes()) report_.bytes += target->addLevel(volume.level()).bytes();
+                target = makeLighting(target, 1, count, 0x100u + std::uint32_t(sweep % 2));
+                report_.bytes += target->addLevel(level).bytes();
             }
-            for (Volume& volume : target->volumes()) volume.reset();
+            Volume& volume = target->volumes().front();
+            volume.reset();
             for (std::size_t done = 0; done < count;) {
                 const std::size_t round = trace(*target, sampler, std::min(count - done, kLargestRound));
-                for (std::size_t l = 0; l < target->volumes().size(); ++l) {
-                    if (mix_[l] > 0.0) inject(*target, target->volumes()[l]);
-                }
+                inject(*target, volume);
                 const auto [flux, on] = sentOn(*target);
                 nextPower_ = done == 0 ? on : (nextPower_ * double(done) + on * double(round)) / double(done + round);
                 done += round;
@@ -445,14 +465,16 @@ private:
                     "there is no finite answer; what is given is the light of the first {} bounces",
                     sweep, ratio, sweep));
             }
-            evaluate(*target, out, scale);
+            source = {target.get(), &lookups, {1.0}};
+            evaluate(source, out, scale);
             if (last) return;
             power = nextPower_;
-            source = target.get();
             progress.update(1.0 - total(power) / first);
         }
     }
 
+    // Rays of all further bounces from which on they get the second and the third of kResolutions.
+    static constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
     // Above this ratio from bounce to bounce the sum has no stable limit.
     static constexpr double kLargestRatio = 0.9995;
 
