@@ -29,7 +29,7 @@ TEST_F(Scenes, listsEveryBuiltInSceneWithItsNumbers) {
 
 TEST_F(Scenes, aTableForPeopleHasALineAScene) {
     const std::string text = runCommand({"scenes"}).out;
-    for (const BuiltinScene& scene : builtinScenes()) EXPECT_NE(text.find("\n" + scene.name + " "), std::string::npos) << text;
+    for (const BuiltinScene& scene : builtinScenes()) EXPECT_NE(text.find("\n  " + scene.name + " "), std::string::npos) << text;
 }
 
 TEST_F(Scenes, aWrittenSceneLoadsWithTheSameGeometry) {

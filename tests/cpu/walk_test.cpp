@@ -91,7 +91,7 @@ struct Recorded {
         buffer.count = 0;
     }
     bool sameBits(const Recorded& other) const {
-        auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0; };
+        auto same = [](const auto& a, const auto& b) { return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0); };
         return same(entry, other.entry) && same(lane, other.lane) && same(weight, other.weight) && same(middle, other.middle);
     }
 };
