@@ -8,10 +8,11 @@ buildPackages=(
     libassimp-dev zlib1g-dev                  # assimp's CMake package links zlib, but its Debian package does not bring it
     libopenimageio-dev openimageio-tools      # the same for OpenImageIO's tools, which its CMake package checks for
     libcli11-dev nlohmann-json3-dev libfmt-dev
+    libvulkan-dev glslang-tools spirv-tools   # the Vulkan back end and the shaders that it runs
     libgtest-dev libbenchmark-dev
 )
 # What the tests run beside that: compilers for every language that the shared headers are written in.
-testPackages=(clang-14 glslang-tools spirv-tools)
+testPackages=(clang-14 mesa-vulkan-drivers vulkan-validationlayers spirv-cross)
 
 # Installs those of the named packages that are missing, or says which they are and ends with 1.
 installPackages() {

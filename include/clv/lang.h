@@ -1,5 +1,9 @@
 // The only file that knows which language it is compiled as: C++20 with GLM, GLSL (4.50, Vulkan) or HLSL (5+).
 // Everything in math/, data/ and stages/ is written in GLSL's vocabulary plus the macros below.
+//
+// Functions that walk what lies in buffers (a tree of boxes, a level's cells) begin with CLV_READER_FN and take CLV_READER before
+// their other parameters. They read by CLV_READ clvReadXxx(index), and call each other with CLV_PASS_READER. In C++ the reader is an
+// object with members of these names; in shaders they are functions that the entry point defines before it includes the header.
 #ifndef CLV_LANG_H
 #define CLV_LANG_H
 
@@ -17,6 +21,10 @@
 #define CLV_IN(type) const type&  // for large structs
 #define CLV_INOUT(type) type&
 #define CLV_OUT(type) type&
+#define CLV_READER_FN template <class Reader> inline
+#define CLV_READER const Reader& reader,
+#define CLV_PASS_READER reader,
+#define CLV_READ reader.
 
 namespace clv {
 
@@ -72,6 +80,10 @@ inline uint clvReverseBits(uint x) {
 #define CLV_IN(type) type
 #define CLV_INOUT(type) inout type
 #define CLV_OUT(type) out type
+#define CLV_READER_FN
+#define CLV_READER
+#define CLV_PASS_READER
+#define CLV_READ
 
 #define vec2 float2
 #define vec3 float3
@@ -99,6 +111,10 @@ uint clvReverseBits(uint x) { return reversebits(x); }
 #define CLV_IN(type) type
 #define CLV_INOUT(type) inout type
 #define CLV_OUT(type) out type
+#define CLV_READER_FN
+#define CLV_READER
+#define CLV_PASS_READER
+#define CLV_READ
 
 float clvAtan2(float y, float x) { return atan(y, x); }
 uint clvBitsFromFloat(float x) { return floatBitsToUint(x); }

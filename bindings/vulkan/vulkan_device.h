@@ -1,0 +1,53 @@
+// A Vulkan device with one queue for compute, chosen by index or name.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clv {
+
+// What this library may use of a device where it is there.
+struct VulkanFeatures {
+    bool floatAtomics = false;       // 32-bit float additions in storage buffers
+    std::uint32_t subgroupSize = 0;  // lanes that can shuffle in compute; 0: none can
+    bool rayTracingPipelines = false;
+};
+
+struct VulkanDeviceInfo {
+    std::string name;
+    std::string driver;              // name and version
+    std::string type;                // "discrete", "integrated", "virtual", "cpu" or "other"
+    std::uint32_t apiVersion = 0;    // as Vulkan encodes it
+    std::uint64_t memory = 0;        // bytes of the largest device-local heap
+    VulkanFeatures features;
+};
+
+struct VulkanOptions {
+    std::string device;              // index or part of a name; empty: the first discrete one, else the first
+    bool validate = false;           // Khronos' validation layer with synchronisation validation; its messages count as errors
+};
+
+// Devices that can run compute with Vulkan 1.1, in the loader's order. Empty without a loader or a driver.
+std::vector<VulkanDeviceInfo> vulkanDevices();
+
+class VulkanDevice {
+public:
+    // Throws std::runtime_error with one line: no loader, no device, no such device, a missing feature.
+    explicit VulkanDevice(const VulkanOptions& options = {});
+    ~VulkanDevice();
+    VulkanDevice(const VulkanDevice&) = delete;
+    VulkanDevice& operator=(const VulkanDevice&) = delete;
+
+    const VulkanDeviceInfo& info() const;
+    // What the validation layer has said so far, a line each.
+    std::vector<std::string> messages() const;
+
+    struct Impl;
+    Impl& impl() const { return *impl_; }
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace clv

@@ -1,0 +1,35 @@
+// What the passes of a frame on the GPU know beside their buffers: two blocks of constants, written by the host before each frame.
+#ifndef CLV_DATA_FRAME_H
+#define CLV_DATA_FRAME_H
+#include "light_volume.h"
+CLV_NAMESPACE_BEGIN
+
+struct ClvFrame {        // 80 bytes; of the whole frame
+    vec3 boundsLo;       // m, relative to the anchor: what the maps of directional lights cover
+    uint rayCount;       // >= 1, a multiple of `halves`
+    vec3 boundsHi;
+    uint halves;         // 1 or 2: the rays are cut into as many independent estimates
+    uint firstIndex;     // of this frame's first ray in the sequence of each half
+    uint seed;           // of the rays; a half adds its number
+    uint rsmPass;        // which of the well-spread points of its texels this frame's map samples
+    uint rsmSeed;        // a light adds its number
+    uint rsmSide;        // texels along a side of a light's map
+    uint lightCount;     // maps are stacked: light k owns the rows [k, k + 1) * rsmSide
+    uint receiverCount;
+    float originOffset;  // m, >= 0: rays start this far above their surface
+    vec3 pad0;
+    uint triangleCount;
+};
+
+struct ClvLevelFrame {   // 80 bytes; of one level of the light volume
+    ClvVolume volume;
+    uint slotCount;
+    float scale;         // > 0: turns a half's sum of deposits into its estimate, 1 / rays of the half
+    float weight;        // (0, 1]: of this frame in the history
+    float fixedScale;    // > 0, 1/(W m): units of a deposit where they are added as integers
+    ivec3 brickCounts;   // bricks of 2^3 cells along each axis
+    uint listCapacity;   // rays that the lists of all bricks can hold together
+};
+
+CLV_NAMESPACE_END
+#endif

@@ -1,0 +1,53 @@
+// Binding numbers of descriptor set 0, the same in every pass, in GLSL, HLSL and C++: a resource has one number throughout.
+// Macros, because neither shading language takes constants in its binding attributes.
+#ifndef CLV_DATA_GPU_BINDINGS_H
+#define CLV_DATA_GPU_BINDINGS_H
+
+// Threads of a work group, unless a pass says otherwise.
+#define CLV_GROUP_SIZE 64
+
+// Constants: uniform buffers.
+#define CLV_BIND_FRAME 0           // ClvFrame
+#define CLV_BIND_LEVEL 1           // ClvLevelFrame
+
+// The scene.
+#define CLV_BIND_LIGHTS 2          // ClvLight[lightCount]
+#define CLV_BIND_BVH_BOXES 3       // texel buffer, RGBA32F: see data/bvh.h
+#define CLV_BIND_BVH_CHILDREN 4    // texel buffer, RGBA32UI
+#define CLV_BIND_TRIANGLES 5       // texel buffer, RGBA32F
+#define CLV_BIND_SURFACES 6        // texel buffer, RGBA32F: a triangle's normal and albedo
+
+// What flows.
+#define CLV_BIND_TEXELS 7          // ClvRsmTexel[lightCount * rsmSide^2]
+#define CLV_BIND_TEXEL_SUMS 8      // float: rows of rsmSide + 1 running sums from 0 to 1, then one over all rows
+#define CLV_BIND_RAYS 9            // ClvRay[rayCount]
+#define CLV_BIND_HITS 10           // ClvHit[rayCount]
+
+// A level.
+#define CLV_BIND_TABLE 11          // uint[cells]
+#define CLV_BIND_SPLITS 12         // ClvSplit[]
+#define CLV_BIND_SLOTS 13          // ClvSlot[slotCount]
+#define CLV_BIND_DEPOSITS 14       // float or int[halves * slotCount * stride]: this frame's sums
+#define CLV_BIND_HISTORY 15        // float[halves * slotCount * stride]: mean deposits, W m
+
+// Lists of the rays that cross each brick.
+#define CLV_BIND_BRICK_COUNTS 16   // uint[bricks * halves]
+#define CLV_BIND_BRICK_ENDS 17     // uint[bricks * halves]: where a brick's list ends
+#define CLV_BIND_BRICK_RAYS 18     // uint[listCapacity]: ray indices
+#define CLV_BIND_BRICK_SLOTS 19    // uint[groups * 8]: the slots that eight lanes fill, or kClvNoSlot
+#define CLV_BIND_BRICK_GROUPS 20   // uint[groups]: the brick of each eight slots
+
+// Receivers.
+#define CLV_BIND_RECEIVERS 21      // ClvReceiver[receiverCount]
+#define CLV_BIND_LOOKUP_ENDS 22    // uint[receiverCount]: where a receiver's slots end
+#define CLV_BIND_LOOKUP_SLOTS 23   // uint[]
+#define CLV_BIND_LOOKUP_WEIGHTS 24 // float[], 1/m^3
+#define CLV_BIND_IRRADIANCE 25     // vec4[receiverCount], W/m^2
+
+// Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
+#define CLV_SPEC_STORAGE 0         // kClvStorage...
+#define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour
+#define CLV_SPEC_RULE 2            // kClvInject...
+#define CLV_SPEC_STRIDE 3          // floats a record
+
+#endif

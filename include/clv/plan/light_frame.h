@@ -1,0 +1,193 @@
+// The library's own frame for still light on the GPU: rsm -> rays -> trace -> inject -> merge, and evaluate.
+#ifndef CLV_PLAN_LIGHT_FRAME_H
+#define CLV_PLAN_LIGHT_FRAME_H
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "../data/bvh.h"
+#include "../data/cell.h"
+#include "../data/frame.h"
+#include "../data/hit.h"
+#include "../data/light.h"
+#include "../data/ray.h"
+#include "../data/rsm_texel.h"
+#include "../stages/evaluate.h"
+#include "../stages/inject.h"
+#include "frame.h"
+
+namespace clv {
+
+// How crossings are added up.
+enum class InjectWay {
+    bricks,        // each slot gathers the rays of its brick of 2^3 cells; no atomics on deposits
+    floatAtomics,  // each ray adds to what it crosses; sums depend on the order to the last bits
+    fixedPoint,    // the same with integers: the same to the last bit from run to run
+};
+
+struct LightFrameLevel {
+    ClvVolume volume{};
+    std::uint64_t cells = 0, splits = 0, slots = 0;
+    std::uint64_t brickGroups = 0;     // eight slots of one brick each; used by InjectWay::bricks alone
+    std::uint64_t lookupEntries = 0;   // slots that all receivers read together
+};
+
+struct LightFrameSettings {
+    std::uint64_t lights = 0, rsmSide = 0, triangles = 0, bvhNodes = 0;
+    std::uint64_t rays = 0;            // a frame
+    std::uint64_t receivers = 0;       // 0: no evaluate step
+    std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
+    std::uint32_t rule = kClvInjectTrackLength;
+    bool keepHits = false;             // further bounces need to know what rays met
+    InjectWay inject = InjectWay::bricks;
+    std::vector<LightFrameLevel> levels;
+};
+
+// Floats of a slot's record: its coefficients times its channels, padded to whole vectors of eight.
+inline std::uint32_t frameStride(const LightFrameSettings& settings) {
+    return (clvCoefficientCount(settings.storage) * settings.channels + 7u) / 8u * 8u;
+}
+
+// Bricks of 2^3 cells along each axis.
+inline ivec3 frameBricks(const ClvVolume& volume) {
+    return ivec3((volume.resolution.x + 1) / 2, (volume.resolution.y + 1) / 2, (volume.resolution.z + 1) / 2);
+}
+
+// Entries that the brick lists can need at most: a straight line crosses at most x + y + z - 2 bricks.
+inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const ClvVolume& volume) {
+    const ivec3 bricks = frameBricks(volume);
+    return settings.rays * std::uint64_t(bricks.x + bricks.y + bricks.z - 2);
+}
+
+namespace detail {
+
+class LightFrameBuilder {
+public:
+    explicit LightFrameBuilder(const LightFrameSettings& settings) : s_(settings) {}
+
+    Frame build() {
+        const std::uint64_t texels = s_.lights * s_.rsmSide * s_.rsmSide, rows = s_.lights * s_.rsmSide;
+        const auto frame = add("frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host);
+        const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
+        const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
+        const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
+        const auto triangles = add("triangles", CLV_BIND_TRIANGLES, s_.triangles * kClvTriangleRows * sizeof(vec4), FrameSource::host);
+        const auto surfaces = add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host);
+        const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), FrameSource::passes);
+        const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
+        const auto rays = add("rays", CLV_BIND_RAYS, s_.rays * sizeof(ClvRay), FrameSource::passes, true);
+        const std::vector<FrameUse> tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+
+        begin("rsm");
+        pass("rsm", "rsm", groupsFor(texels), with({uniform(frame), read(lights), texel(surfaces), write(texelBuffer)}, tree));
+        pass("texel rows", "texel_rows", uvec3(uint(rows), 1, 1), {uniform(frame), read(texelBuffer), write(sums)});
+        pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
+
+        begin("light");
+        pass("rays", "rays", groupsFor(s_.rays), {uniform(frame), read(texelBuffer), read(sums), write(rays)});
+        if (s_.keepHits) {
+            const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
+            pass("trace", "trace_hits", groupsFor(s_.rays), with({uniform(frame), readWrite(rays), texel(surfaces), write(hits)}, tree));
+        } else {
+            pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
+        }
+        struct Read {
+            std::string name;
+            std::uint32_t level, history;
+            std::uint64_t entries;
+        };
+        std::vector<Read> reads;
+        for (std::size_t l = 0; l < s_.levels.size(); ++l) {
+            const LightFrameLevel& level = s_.levels[l];
+            const std::string name = " " + std::to_string(l);
+            const std::uint64_t record = frameStride(s_) * sizeof(float), records = s_.halves * level.slots;
+            const auto constants = add("level" + name, CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host);
+            const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, records * record,
+                                      s_.inject == InjectWay::bricks ? FrameSource::passes : FrameSource::zero, true);
+            const auto history = add("history" + name, CLV_BIND_HISTORY, records * record, FrameSource::zero, true);
+            addInject(level, name, frame, constants, rays, deposits);
+            pass("merge" + name, s_.inject == InjectWay::fixedPoint ? "merge_fixed" : "merge", groupsFor(records * frameStride(s_)),
+                 {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
+            reads.push_back({name, constants, history, level.lookupEntries});
+        }
+
+        if (s_.receivers > 0) {
+            const auto receivers = add("receivers", CLV_BIND_RECEIVERS, s_.receivers * sizeof(ClvReceiver), FrameSource::host);
+            begin("evaluate");
+            for (const Read& r : reads) {
+                const auto ends = add("lookup ends" + r.name, CLV_BIND_LOOKUP_ENDS, s_.receivers * sizeof(uint), FrameSource::host);
+                const auto slots = add("lookup slots" + r.name, CLV_BIND_LOOKUP_SLOTS, r.entries * sizeof(uint), FrameSource::host);
+                const auto weights = add("lookup weights" + r.name, CLV_BIND_LOOKUP_WEIGHTS, r.entries * sizeof(float), FrameSource::host);
+                const auto irradiance = add("irradiance" + r.name, CLV_BIND_IRRADIANCE, s_.halves * s_.receivers * sizeof(vec4), FrameSource::passes, true);
+                pass("evaluate" + r.name, "evaluate", groupsFor(s_.halves * s_.receivers),
+                     {uniform(frame), uniform(r.level), read(receivers), read(ends), read(slots), read(weights), texel(r.history), write(irradiance)}, recordConstants());
+            }
+        }
+        addBarriers(frame_);
+        return std::move(frame_);
+    }
+
+private:
+    using Uses = std::vector<FrameUse>;
+    using Constants = std::vector<FrameConstant>;
+
+    std::uint32_t add(const std::string& name, std::uint32_t binding, std::uint64_t bytes, FrameSource source, bool readBack = false) {
+        frame_.buffers.push_back({name, binding, bytes, source, readBack});
+        return std::uint32_t(frame_.buffers.size() - 1);
+    }
+    void begin(const std::string& step) { frame_.steps.push_back({step, {}}); }
+    void pass(const std::string& name, const std::string& shader, const uvec3& groups, Uses uses, Constants constants = {}) {
+        frame_.steps.back().passes.push_back({name, shader, std::move(constants), std::move(uses), groups, {}});
+    }
+
+    void addInject(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t deposits) {
+        Constants spec = recordConstants();
+        spec.push_back({CLV_SPEC_RULE, s_.rule});
+        const auto table = add("table" + name, CLV_BIND_TABLE, level.cells * sizeof(uint), FrameSource::host);
+        // A buffer may not be empty, a level without splits is welcome.
+        const auto splits = add("splits" + name, CLV_BIND_SPLITS, std::max<std::uint64_t>(level.splits, 1) * sizeof(ClvSplit), FrameSource::host);
+        if (s_.inject != InjectWay::bricks) {
+            pass("inject" + name, s_.inject == InjectWay::fixedPoint ? "inject_fixed" : "inject_float", groupsFor(s_.rays),
+                 {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
+            return;
+        }
+        const ivec3 bricks = frameBricks(level.volume);
+        const std::uint64_t lists = s_.halves * std::uint64_t(bricks.x) * bricks.y * bricks.z;
+        const auto slots = add("slots" + name, CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
+        const auto counts = add("brick counts" + name, CLV_BIND_BRICK_COUNTS, lists * sizeof(uint), FrameSource::passes);
+        const auto ends = add("brick ends" + name, CLV_BIND_BRICK_ENDS, lists * sizeof(uint), FrameSource::passes);
+        const auto list = add("brick rays" + name, CLV_BIND_BRICK_RAYS, frameListCapacity(s_, level.volume) * sizeof(uint), FrameSource::passes);
+        const auto brickSlots = add("brick slots" + name, CLV_BIND_BRICK_SLOTS, level.brickGroups * 8 * sizeof(uint), FrameSource::host);
+        const auto groups = add("brick groups" + name, CLV_BIND_BRICK_GROUPS, level.brickGroups * sizeof(uint), FrameSource::host);
+        pass("clear counts" + name, "", uvec3(1), {write(counts)});
+        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(counts)});
+        // Ends where each list ends; the counts become the places where the next ray of each list goes.
+        pass("scan" + name, "brick_scan", uvec3(1), {uniform(frame), uniform(constants), readWrite(counts), write(ends)});
+        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(counts), write(list)});
+        pass("inject" + name, "inject_bricks", groupsFor(s_.halves * level.brickGroups * 8),
+             {uniform(frame), uniform(constants), read(rays), read(ends), read(list), read(brickSlots), read(groups), read(slots), read(table), read(splits), write(deposits)}, spec);
+    }
+
+    Constants recordConstants() const {
+        return {{CLV_SPEC_STORAGE, s_.storage}, {CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_STRIDE, frameStride(s_)}};
+    }
+    static FrameUse uniform(std::uint32_t b) { return {b, FrameBinding::uniform, FrameAccess::read, FrameFormat::none}; }
+    static FrameUse read(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::read, FrameFormat::none}; }
+    static FrameUse write(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::write, FrameFormat::none}; }
+    static FrameUse readWrite(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::readWrite, FrameFormat::none}; }
+    static FrameUse texel(std::uint32_t b, FrameFormat format = FrameFormat::rgba32Float) { return {b, FrameBinding::texel, FrameAccess::read, format}; }
+    static Uses with(Uses uses, const Uses& more) {
+        uses.insert(uses.end(), more.begin(), more.end());
+        return uses;
+    }
+
+    const LightFrameSettings& s_;
+    Frame frame_;
+};
+
+}  // namespace detail
+
+inline Frame lightFrame(const LightFrameSettings& settings) { return detail::LightFrameBuilder(settings).build(); }
+
+}  // namespace clv
+#endif
