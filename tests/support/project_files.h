@@ -21,7 +21,8 @@ inline std::string readText(const fs::path& path) {
 }
 
 // Files below `folder` (relative to the project, "" for all of it), as sorted relative paths with forward slashes.
-// Hidden folders other than .ci and .github, and what .gitignore names as outputs, are no part of the project.
+// Hidden folders other than .ci and .github, .git (a file in a worktree), and what .gitignore names as outputs, are no part of the
+// project.
 inline std::vector<std::string> projectFiles(const std::string& folder) {
     std::vector<std::string> files;
     fs::path root = kSourceDir / folder;
@@ -33,7 +34,7 @@ inline std::vector<std::string> projectFiles(const std::string& folder) {
         bool output = top && (name.starts_with("build") || name == "out" || name == "demo-out");
         if (it->is_directory() && (hidden || output)) {
             it.disable_recursion_pending();
-        } else if (it->is_regular_file()) {
+        } else if (it->is_regular_file() && name != ".git") {
             files.push_back(it->path().lexically_relative(kSourceDir).generic_string());
         }
     }
