@@ -82,6 +82,9 @@ struct Frame {
     }
 };
 
+// Bytes of an element of a typed view; `format` is not `none`.
+inline std::uint32_t frameFormatBytes(FrameFormat format) { return format == FrameFormat::r32Float ? 4u : 16u; }
+
 inline bool frameReads(FrameAccess access) { return access != FrameAccess::write; }
 inline bool frameWrites(FrameAccess access) { return access != FrameAccess::read; }
 

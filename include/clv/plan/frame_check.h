@@ -8,53 +8,134 @@
 
 namespace clv {
 
-// One line a fault; empty: the steps may run in their order. Every read has a write before it, every buffer is used, names and the
-// bindings of a pass are unique, no two passes that touch the same data lack a barrier between them.
-inline std::vector<std::string> checkFrame(const Frame& frame) {
-    std::vector<std::string> faults;
-    auto fault = [&](const std::string& words) { faults.push_back(words); };
-    std::set<std::string> names;
-    std::vector<bool> filled(frame.buffers.size()), used(frame.buffers.size());
-    for (std::size_t i = 0; i < frame.buffers.size(); ++i) {
-        const FrameBuffer& buffer = frame.buffers[i];
-        if (!names.insert(buffer.name).second) fault("buffer " + buffer.name + " is declared twice");
-        if (buffer.bytes == 0) fault("buffer " + buffer.name + " has no bytes");
-        filled[i] = buffer.source != FrameSource::passes;
-    }
-    for (const FrameStep& step : frame.steps) {
-        for (std::uint32_t p = 0; p < step.passes.size(); ++p) {
-            const FramePass& pass = step.passes[p];
-            std::set<std::uint32_t> bindings;
-            if (pass.groups.x == 0 || pass.groups.y == 0 || pass.groups.z == 0) fault("pass " + pass.name + " has no work groups");
-            if (std::max({pass.groups.x, pass.groups.y, pass.groups.z}) > 65535u) fault("pass " + pass.name + " has more than 65535 work groups along an axis");
-            if (pass.shader.empty() && (pass.uses.size() != 1 || pass.uses[0].access != FrameAccess::write)) {
-                fault("pass " + pass.name + " has no shader: it must write one buffer and read none");
-            }
-            for (const FrameUse& use : pass.uses) {
-                if (use.buffer >= frame.buffers.size()) {
-                    fault("pass " + pass.name + " uses a buffer that is not declared");
-                    continue;
-                }
-                const std::string& buffer = frame.buffers[use.buffer].name;
-                used[use.buffer] = true;
-                if (!bindings.insert(frame.buffers[use.buffer].binding).second) fault("pass " + pass.name + " binds " + buffer + "'s number twice");
-                if (use.binding != FrameBinding::storage && frameWrites(use.access)) fault("pass " + pass.name + " writes " + buffer + " through a read-only view");
-                if ((use.binding == FrameBinding::texel) != (use.format != FrameFormat::none)) fault("pass " + pass.name + " reads " + buffer + " with a format where it has none, or without");
-                if (frameReads(use.access) && !filled[use.buffer]) fault("pass " + pass.name + " reads " + buffer + ", which nothing has written");
-                if (frameWrites(use.access)) filled[use.buffer] = true;
-                for (std::uint32_t q : framePrerequisites(step, p, use.buffer, use.access)) {
-                    const bool ordered = std::any_of(pass.barriers.begin(), pass.barriers.end(),
-                                                     [&](const FrameBarrier& b) { return b.buffer == use.buffer && b.after == q; });
-                    if (!ordered) fault("pass " + pass.name + " has no barrier for " + buffer + " after " + step.passes[q].name);
+// What a device takes. The defaults are what desktop devices have in common under Vulkan, Direct3D 12 and WebGPU.
+struct FrameLimits {
+    std::uint32_t groups = 65535;                        // of a pass, along an axis
+    std::uint32_t storageBuffers = 16;                   // of a pass
+    std::uint64_t uniformBytes = std::uint64_t(1) << 14;  // of a uniform buffer
+    std::uint64_t storageBytes = std::uint64_t(1) << 27;  // of a storage buffer
+    std::uint64_t texelElements = std::uint64_t(1) << 27;  // of a typed view
+};
+
+namespace detail {
+
+class FrameCheck {
+public:
+    FrameCheck(const Frame& frame, const FrameLimits& limits) : frame_(frame), limits_(limits), filled_(frame.buffers.size()), used_(frame.buffers.size()), wanted_(frame.buffers.size()) {}
+
+    std::vector<std::string> faults() {
+        checkBuffers();
+        std::set<std::string> steps;
+        for (const FrameStep& step : frame_.steps) {
+            if (!steps.insert(step.name).second) fault("step " + step.name + " is declared twice");
+            for (std::uint32_t p = 0; p < step.passes.size(); ++p) {
+                checkPass(step.passes[p]);
+                checkBarriers(step, p);
+                for (const FrameUse& use : step.passes[p].uses) {
+                    if (isDeclared(use)) checkUse(step, p, use);
                 }
             }
         }
+        checkNothingIsIdle();
+        return std::move(faults_);
     }
-    for (std::size_t i = 0; i < frame.buffers.size(); ++i) {
-        if (!used[i]) fault("buffer " + frame.buffers[i].name + " is declared and unused");
+
+private:
+    void fault(const std::string& words) { faults_.push_back(words); }
+    bool isDeclared(const FrameUse& use) const { return use.buffer < frame_.buffers.size(); }
+
+    void checkBuffers() {
+        std::set<std::string> names;
+        for (std::size_t i = 0; i < frame_.buffers.size(); ++i) {
+            const FrameBuffer& buffer = frame_.buffers[i];
+            if (!names.insert(buffer.name).second) fault("buffer " + buffer.name + " is declared twice");
+            if (buffer.bytes == 0) fault("buffer " + buffer.name + " has no bytes");
+            if (buffer.bytes % 4 != 0) fault("buffer " + buffer.name + " is no whole number of words of 4 bytes");
+            filled_[i] = buffer.source != FrameSource::passes;
+            wanted_[i] = buffer.readBack;
+        }
     }
-    return faults;
-}
+
+    void checkPass(const FramePass& pass) {
+        const std::uint32_t most = std::max({pass.groups.x, pass.groups.y, pass.groups.z});
+        if (std::min({pass.groups.x, pass.groups.y, pass.groups.z}) == 0) fault("pass " + pass.name + " has no work groups");
+        if (most > limits_.groups) fault("pass " + pass.name + " has " + std::to_string(most) + " work groups along an axis, more than " + std::to_string(limits_.groups));
+        if (pass.shader.empty() && (pass.uses.size() != 1 || pass.uses[0].access != FrameAccess::write)) {
+            fault("pass " + pass.name + " has no shader: it must write one buffer and read none");
+        }
+        std::set<std::uint32_t> ids, bindings;
+        for (const FrameConstant& constant : pass.constants) {
+            if (!ids.insert(constant.id).second) fault("pass " + pass.name + " sets constant " + std::to_string(constant.id) + " twice");
+        }
+        std::uint32_t storage = 0;
+        for (const FrameUse& use : pass.uses) {
+            if (use.binding == FrameBinding::storage) ++storage;
+            if (!isDeclared(use)) {
+                fault("pass " + pass.name + " uses a buffer that is not declared");
+            } else if (!bindings.insert(frame_.buffers[use.buffer].binding).second) {
+                fault("pass " + pass.name + " binds the number of " + frame_.buffers[use.buffer].name + " twice");
+            }
+        }
+        if (storage > limits_.storageBuffers) fault("pass " + pass.name + " has " + std::to_string(storage) + " storage buffers, more than " + std::to_string(limits_.storageBuffers));
+    }
+
+    void checkBarriers(const FrameStep& step, std::uint32_t p) {
+        for (const FrameBarrier& barrier : step.passes[p].barriers) {
+            if (barrier.buffer >= frame_.buffers.size() || barrier.after >= p) fault("pass " + step.passes[p].name + " has a barrier that is not after an earlier pass of its step, or for no buffer");
+        }
+    }
+
+    void checkUse(const FrameStep& step, std::uint32_t p, const FrameUse& use) {
+        const FramePass& pass = step.passes[p];
+        const FrameBuffer& buffer = frame_.buffers[use.buffer];
+        used_[use.buffer] = true;
+        if (use.binding != FrameBinding::storage && frameWrites(use.access)) fault("pass " + pass.name + " writes " + buffer.name + " through a read-only view");
+        if ((use.binding == FrameBinding::texel) != (use.format != FrameFormat::none)) fault("pass " + pass.name + " uses " + buffer.name + " with a format where it has none, or without");
+        checkSize(pass, buffer, use);
+        if (frameReads(use.access)) {
+            if (!filled_[use.buffer]) fault("pass " + pass.name + " reads " + buffer.name + ", which nothing has written");
+            wanted_[use.buffer] = true;
+        }
+        if (frameWrites(use.access)) filled_[use.buffer] = true;
+        for (std::uint32_t q : framePrerequisites(step, p, use.buffer, use.access)) {
+            const bool ordered = std::any_of(pass.barriers.begin(), pass.barriers.end(), [&](const FrameBarrier& b) { return b.buffer == use.buffer && b.after == q; });
+            if (!ordered) fault("pass " + pass.name + " has no barrier for " + buffer.name + " after " + step.passes[q].name);
+        }
+    }
+
+    void checkSize(const FramePass& pass, const FrameBuffer& buffer, const FrameUse& use) {
+        std::uint64_t size = buffer.bytes, most = limits_.storageBytes;
+        const char* unit = " bytes";
+        if (use.binding == FrameBinding::uniform) most = limits_.uniformBytes;
+        if (use.format != FrameFormat::none) {
+            size = buffer.bytes / frameFormatBytes(use.format), most = limits_.texelElements, unit = " elements";
+            if (buffer.bytes % frameFormatBytes(use.format) != 0) fault("pass " + pass.name + " reads " + buffer.name + " in a format that its bytes are no multiple of");
+        }
+        if (size > most) fault("pass " + pass.name + " uses " + buffer.name + " of " + std::to_string(size) + unit + ", more than " + std::to_string(most));
+    }
+
+    void checkNothingIsIdle() {
+        for (std::size_t i = 0; i < frame_.buffers.size(); ++i) {
+            const std::string& name = frame_.buffers[i].name;
+            if (!used_[i]) {
+                fault("buffer " + name + " is declared and unused");
+            } else if (!wanted_[i]) {
+                fault("buffer " + name + " is written and never read");
+            }
+        }
+    }
+
+    const Frame& frame_;
+    const FrameLimits& limits_;
+    std::vector<bool> filled_, used_, wanted_;  // of each buffer: has data; a pass has it; somebody reads it
+    std::vector<std::string> faults_;
+};
+
+}  // namespace detail
+
+// One line a fault; empty: the steps may run in their order on a device with these limits. Every read has a write before it, every
+// buffer is used, names and the bindings of a pass are unique, no two passes that touch the same data lack a barrier between them.
+inline std::vector<std::string> checkFrame(const Frame& frame, const FrameLimits& limits = {}) { return detail::FrameCheck(frame, limits).faults(); }
 
 }  // namespace clv
 #endif

@@ -15,6 +15,7 @@
 #include "../stages/evaluate.h"
 #include "../stages/inject.h"
 #include "frame.h"
+#include "frame_check.h"
 
 namespace clv {
 
@@ -53,10 +54,25 @@ inline ivec3 frameBricks(const ClvVolume& volume) {
     return ivec3((volume.resolution.x + 1) / 2, (volume.resolution.y + 1) / 2, (volume.resolution.z + 1) / 2);
 }
 
-// Entries that the brick lists can need at most: a straight line crosses at most x + y + z - 2 bricks.
-inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const ClvVolume& volume) {
+// Bricks that a straight line crosses at most.
+inline std::uint64_t frameBricksOfRay(const ClvVolume& volume) {
     const ivec3 bricks = frameBricks(volume);
-    return settings.rays * std::uint64_t(bricks.x + bricks.y + bricks.z - 2);
+    return std::uint64_t(bricks.x + bricks.y + bricks.z - 2);
+}
+
+// Entries that the brick lists can need at most.
+inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const ClvVolume& volume) {
+    return settings.rays * frameBricksOfRay(volume);
+}
+
+// The most rays that a frame with otherwise these settings can have on a device with these limits; a host that wants more runs the
+// light step in rounds.
+inline std::uint64_t largestFrameRays(const LightFrameSettings& settings, const FrameLimits& limits = {}) {
+    std::uint64_t rays = std::min(std::uint64_t(limits.groups) * CLV_GROUP_SIZE, limits.storageBytes / sizeof(ClvRay));
+    for (const LightFrameLevel& level : settings.levels) {
+        if (settings.inject == InjectWay::bricks) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
+    }
+    return rays / settings.halves * settings.halves;
 }
 
 namespace detail {
@@ -99,7 +115,7 @@ public:
         std::vector<Read> reads;
         for (std::size_t l = 0; l < s_.levels.size(); ++l) {
             const LightFrameLevel& level = s_.levels[l];
-            const std::string name = " " + std::to_string(l);
+            const std::string name = std::string(" ").append(std::to_string(l));
             const std::uint64_t record = frameStride(s_) * sizeof(float), records = s_.halves * level.slots;
             const auto constants = add("level" + name, CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host);
             const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, records * record,

@@ -1,0 +1,140 @@
+// Barriers between the passes of a frame, and the check that finds what is wrong with a description.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "clv/plan/frame_check.h"
+
+using namespace clv;
+
+namespace {
+
+FrameUse reads(std::uint32_t buffer) { return {buffer, FrameBinding::storage, FrameAccess::read, FrameFormat::none}; }
+FrameUse writes(std::uint32_t buffer) { return {buffer, FrameBinding::storage, FrameAccess::write, FrameFormat::none}; }
+FrameUse changes(std::uint32_t buffer) { return {buffer, FrameBinding::storage, FrameAccess::readWrite, FrameFormat::none}; }
+FramePass pass(const std::string& name, std::vector<FrameUse> uses) { return {name, name, {}, std::move(uses), uvec3(1), {}}; }
+
+// Barriers of a step whose passes use one buffer each time as given: for each pass, the passes that it waits for.
+std::vector<std::vector<std::uint32_t>> barriersOf(const std::vector<FrameUse>& uses) {
+    Frame frame;
+    frame.buffers = {{"a", 0, 16, FrameSource::zero, true}};
+    frame.steps = {{"step", {}}};
+    for (const FrameUse& use : uses) frame.steps[0].passes.push_back(pass("p", {use}));
+    addBarriers(frame);
+    std::vector<std::vector<std::uint32_t>> after;
+    for (const FramePass& p : frame.steps[0].passes) {
+        after.emplace_back();
+        for (const FrameBarrier& barrier : p.barriers) after.back().push_back(barrier.after);
+    }
+    return after;
+}
+
+using Passes = std::vector<std::vector<std::uint32_t>>;
+
+TEST(Barriers, stayAwayBetweenReads) { EXPECT_EQ(barriersOf({reads(0), reads(0), reads(0)}), (Passes{{}, {}, {}})); }
+
+TEST(Barriers, orderAReadAfterTheLastWriteAlone) { EXPECT_EQ(barriersOf({writes(0), writes(0), reads(0), reads(0)}), (Passes{{}, {0}, {1}, {1}})); }
+
+TEST(Barriers, orderAWriteAfterEveryReadSinceTheLastWrite) { EXPECT_EQ(barriersOf({writes(0), reads(0), reads(0), writes(0)}), (Passes{{}, {0}, {0}, {2, 1, 0}})); }
+
+TEST(Barriers, orderPassesThatChangeABufferInARow) { EXPECT_EQ(barriersOf({changes(0), changes(0), changes(0)}), (Passes{{}, {0}, {1}})); }
+
+TEST(Barriers, concernTheBufferThatIsShared) {
+    Frame frame;
+    frame.buffers = {{"a", 0, 16, FrameSource::passes}, {"b", 1, 16, FrameSource::passes, true}};
+    frame.steps = {{"step", {pass("first", {writes(0)}), pass("second", {writes(1)}), pass("third", {reads(0), changes(1)})}}};
+    addBarriers(frame);
+    ASSERT_EQ(frame.steps[0].passes[2].barriers.size(), 2u);
+    EXPECT_EQ(frame.steps[0].passes[2].barriers[0].buffer, 0u);
+    EXPECT_EQ(frame.steps[0].passes[2].barriers[0].after, 0u);
+    EXPECT_EQ(frame.steps[0].passes[2].barriers[1].buffer, 1u);
+    EXPECT_EQ(frame.steps[0].passes[2].barriers[1].after, 1u);
+}
+
+TEST(Barriers, areNotNeededBetweenSteps) {
+    Frame frame;
+    frame.buffers = {{"a", 0, 16, FrameSource::passes}};
+    frame.steps = {{"one", {pass("writes", {writes(0)})}}, {"two", {pass("reads", {reads(0)})}}};
+    addBarriers(frame);
+    EXPECT_TRUE(frame.steps[1].passes[0].barriers.empty());
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+}
+
+// Two steps, every kind of binding and source, a pass without a shader: nothing is wrong with it.
+Frame goodFrame() {
+    Frame frame;
+    frame.buffers = {{"constants", 0, 64, FrameSource::host},     {"rows", 1, 1024, FrameSource::host},   {"counts", 2, 256, FrameSource::passes},
+                     {"history", 3, 4096, FrameSource::zero, true}, {"result", 4, 256, FrameSource::passes, true}};
+    frame.steps = {{"light",
+                    {{"clear", "", {}, {writes(2)}, uvec3(1), {}},
+                     {"count", "count", {{CLV_SPEC_STRIDE, 8}, {CLV_SPEC_CHANNELS, 3}}, {{0, FrameBinding::uniform}, {1, FrameBinding::texel, FrameAccess::read, FrameFormat::rgba32Float}, changes(2)}, uvec3(16, 1, 1), {}},
+                     {"merge", "merge", {}, {reads(2), changes(3)}, uvec3(16, 1, 1), {}}}},
+                   {"evaluate", {{"evaluate", "evaluate", {}, {reads(3), writes(4)}, uvec3(4, 1, 1), {}}}}};
+    addBarriers(frame);
+    return frame;
+}
+
+// Expects that `breakIt` gives the good frame exactly one fault, which holds `words`.
+void expectFault(const std::function<void(Frame&)>& breakIt, const std::string& words, const FrameLimits& limits = {}) {
+    Frame frame = goodFrame();
+    breakIt(frame);
+    const std::vector<std::string> faults = checkFrame(frame, limits);
+    ASSERT_EQ(faults.size(), 1u) << words << (faults.size() > 1 ? "; " + faults[0] + "; " + faults[1] : "");
+    EXPECT_NE(faults[0].find(words), std::string::npos) << faults[0];
+}
+
+TEST(FrameCheck, findsNothingInAGoodFrame) { EXPECT_EQ(checkFrame(goodFrame()), std::vector<std::string>()); }
+
+TEST(FrameCheck, findsAMissingBarrier) {
+    expectFault([](Frame& f) { f.steps[0].passes[1].barriers.clear(); }, "count has no barrier for counts after clear");
+    expectFault([](Frame& f) { f.steps[0].passes[2].barriers.clear(); }, "merge has no barrier for counts after count");
+}
+
+TEST(FrameCheck, findsABarrierThatIsNotBehindAnEarlierPass) {
+    expectFault([](Frame& f) { f.steps[0].passes[1].barriers.push_back({2, 1}); }, "count has a barrier that is not after an earlier pass");
+    expectFault([](Frame& f) { f.steps[0].passes[1].barriers.push_back({5, 0}); }, "count has a barrier that is not after an earlier pass");
+}
+
+TEST(FrameCheck, findsAReadBeforeAnyWrite) {
+    expectFault([](Frame& f) { f.steps[0].passes.erase(f.steps[0].passes.begin()), addBarriers(f); }, "count reads counts, which nothing has written");
+    expectFault([](Frame& f) { f.buffers[3].source = FrameSource::passes; }, "merge reads history, which nothing has written");
+    expectFault([](Frame& f) { std::swap(f.steps[0], f.steps[1]), f.buffers[3].source = FrameSource::passes, f.steps[1].passes[2].uses[1] = writes(3); }, "evaluate reads history, which nothing has written");
+}
+
+TEST(FrameCheck, findsBuffersThatServeNobody) {
+    expectFault([](Frame& f) { f.buffers.push_back({"spare", 9, 16, FrameSource::host}); }, "spare is declared and unused");
+    expectFault([](Frame& f) { f.buffers[4].readBack = false; }, "result is written and never read");
+}
+
+TEST(FrameCheck, findsBuffersOfNoUsableSize) {
+    expectFault([](Frame& f) { f.buffers[2].bytes = 0; }, "counts has no bytes");
+    expectFault([](Frame& f) { f.buffers[2].bytes = 255; }, "counts is no whole number of words");
+    expectFault([](Frame& f) { f.buffers[1].bytes = 1000; }, "rows in a format that its bytes are no multiple of");
+}
+
+TEST(FrameCheck, findsNamesAndNumbersGivenTwice) {
+    expectFault([](Frame& f) { f.buffers[1].name = "constants"; }, "constants is declared twice");
+    expectFault([](Frame& f) { f.steps[1].name = "light"; }, "light is declared twice");
+    expectFault([](Frame& f) { f.buffers[4].binding = 3; }, "evaluate binds the number of result twice");
+    expectFault([](Frame& f) { f.steps[0].passes[1].constants[1].id = CLV_SPEC_STRIDE; }, "count sets constant");
+}
+
+TEST(FrameCheck, findsUsesThatNoApiAllows) {
+    expectFault([](Frame& f) { f.steps[0].passes[1].uses[0].access = FrameAccess::readWrite; }, "writes constants through a read-only view");
+    expectFault([](Frame& f) { f.steps[0].passes[1].uses[1].format = FrameFormat::none; }, "uses rows with a format where it has none, or without");
+    expectFault([](Frame& f) { f.steps[0].passes[2].uses[0].format = FrameFormat::r32Float; }, "uses counts with a format where it has none, or without");
+    expectFault([](Frame& f) { f.steps[1].passes[0].uses.push_back(reads(5)); }, "evaluate uses a buffer that is not declared");
+    expectFault([](Frame& f) { f.steps[0].passes[0].uses = {changes(2)}, f.buffers[2].source = FrameSource::zero; }, "clear has no shader");
+}
+
+TEST(FrameCheck, findsWorkThatADeviceDoesNotTake) {
+    expectFault([](Frame& f) { f.steps[0].passes[1].groups = uvec3(65536, 1, 1); }, "count has 65536 work groups along an axis, more than 65535");
+    expectFault([](Frame& f) { f.steps[0].passes[1].groups = uvec3(1, 0, 1); }, "count has no work groups");
+    expectFault([](Frame& f) { f.steps[0].passes[2].groups = uvec3(4, 1, 1); }, "count has 16 work groups along an axis, more than 15", {.groups = 15});
+    expectFault([](Frame& f) { f.steps.pop_back(), f.buffers.pop_back(); }, "merge has 2 storage buffers, more than 1", {.storageBuffers = 1, .storageBytes = 4096});
+    expectFault([](Frame&) {}, "count uses constants of 64 bytes, more than 63", {.uniformBytes = 63});
+    expectFault([](Frame& f) { f.steps[1].passes[0].uses = {writes(4)}; }, "merge uses history of 4096 bytes, more than 4095", {.storageBytes = 4095});
+    expectFault([](Frame&) {}, "count uses rows of 64 elements, more than 63", {.texelElements = 63});
+}
+
+}  // namespace

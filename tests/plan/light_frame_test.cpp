@@ -1,0 +1,165 @@
+// The library's own frame, for every setting.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "clv/plan/frame_check.h"
+#include "clv/plan/light_frame.h"
+
+using namespace clv;
+
+namespace {
+
+LightFrameLevel levelOf(int resolution) {
+    LightFrameLevel level;
+    level.volume.resolution = ivec3(resolution);
+    level.cells = std::uint64_t(resolution) * resolution * resolution;
+    level.splits = resolution;
+    level.slots = level.cells / 8;
+    level.brickGroups = level.cells / 32;
+    level.lookupEntries = 800;
+    return level;
+}
+
+LightFrameSettings smallSettings(InjectWay inject = InjectWay::bricks) {
+    LightFrameSettings settings;
+    settings.lights = 2, settings.rsmSide = 16, settings.triangles = 100, settings.bvhNodes = 40;
+    settings.rays = 4096, settings.receivers = 100, settings.inject = inject;
+    settings.levels = {levelOf(16)};
+    return settings;
+}
+
+constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::floatAtomics, InjectWay::fixedPoint};
+
+// Names of the passes of a step; empty where the frame has no such step.
+std::vector<std::string> passesOf(const Frame& frame, const std::string& step) {
+    std::vector<std::string> names;
+    for (const FrameStep& s : frame.steps) {
+        if (s.name != step) continue;
+        for (const FramePass& pass : s.passes) names.push_back(pass.name);
+    }
+    return names;
+}
+
+bool has(const Frame& frame, const std::string& buffer) { return frame.bufferIndex(buffer) < frame.buffers.size(); }
+
+TEST(LightFrame, isFreeOfFaultsForEverySetting) {
+    std::size_t checked = 0;
+    for (const InjectWay inject : kWays) {
+        for (const bool keepHits : {false, true}) {
+            for (const std::uint32_t halves : {1u, 2u}) {
+                for (const std::uint64_t receivers : {0u, 100u}) {
+                    for (const std::uint32_t storage : {kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) {
+                        for (const std::uint32_t channels : {1u, 3u}) {
+                            for (const std::size_t levels : {1u, 3u}) {
+                                LightFrameSettings settings = smallSettings(inject);
+                                settings.keepHits = keepHits, settings.halves = halves, settings.receivers = receivers;
+                                settings.storage = storage, settings.channels = channels;
+                                settings.levels.resize(levels, levelOf(32));
+                                EXPECT_EQ(checkFrame(lightFrame(settings)), std::vector<std::string>())
+                                    << int(inject) << keepHits << halves << receivers << storage << channels << levels;
+                                ++checked;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_EQ(checked, 3u * 2 * 2 * 2 * 4 * 2 * 2);
+}
+
+TEST(LightFrame, hasTheStagesInTheirOrder) {
+    const Frame frame = lightFrame(smallSettings(InjectWay::fixedPoint));
+    EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"rsm", "texel rows", "texel columns"}));
+    EXPECT_EQ(passesOf(frame, "light"), (std::vector<std::string>{"rays", "trace", "inject 0", "merge 0"}));
+    EXPECT_EQ(passesOf(frame, "evaluate"), (std::vector<std::string>{"evaluate 0"}));
+}
+
+TEST(LightFrame, leavesOutWhatNobodyReads) {
+    LightFrameSettings settings = smallSettings();
+    settings.receivers = 0;
+    const Frame frame = lightFrame(settings);
+    EXPECT_TRUE(passesOf(frame, "evaluate").empty());
+    for (const char* buffer : {"hits", "receivers", "irradiance 0", "lookup ends 0"}) EXPECT_FALSE(has(frame, buffer)) << buffer;
+    const Frame atomics = lightFrame(smallSettings(InjectWay::floatAtomics));
+    for (const char* buffer : {"brick counts 0", "brick ends 0", "brick rays 0", "brick slots 0", "brick groups 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
+}
+
+// Its lights stand still and one volume holds the scene: it has neither the data nor the passes of what moves.
+TEST(LightFrame, hasNeitherDynamicityNorScrolling) {
+    for (const InjectWay inject : kWays) {
+        const Frame frame = lightFrame(smallSettings(inject));
+        std::vector<std::string> names;
+        for (const FrameBuffer& buffer : frame.buffers) names.push_back(buffer.name);
+        for (const FrameStep& step : frame.steps) {
+            for (const FramePass& pass : step.passes) names.insert(names.end(), {pass.name, pass.shader});
+        }
+        for (const std::string& name : names) {
+            EXPECT_EQ(name.find("dynamicity"), std::string::npos);
+            EXPECT_EQ(name.find("scroll"), std::string::npos);
+        }
+        // The whole of a record is light.
+        EXPECT_EQ(frame.buffers[frame.bufferIndex("history 0")].bytes, 512u * 32 * sizeof(float));
+    }
+}
+
+TEST(LightFrame, statesItsMemoryByItsSettings) {
+    const LightFrameSettings settings = smallSettings(InjectWay::fixedPoint);
+    const std::uint64_t record = 32 * sizeof(float);  // nine coefficients in three channels, padded to 32
+    const std::uint64_t expected = sizeof(ClvFrame) + 2 * sizeof(ClvLight)
+                                   + 40 * (kClvBvhBoxRows + 1) * sizeof(vec4) + 100 * (kClvTriangleRows + kClvSurfaceRows) * sizeof(vec4)
+                                   + 2 * 16 * 16 * sizeof(ClvRsmTexel) + (32 * 17 + 33) * sizeof(float) + 4096 * sizeof(ClvRay)
+                                   + sizeof(ClvLevelFrame) + 16 * 16 * 16 * sizeof(uint) + 16 * sizeof(ClvSplit) + 2 * 512 * record
+                                   + 100 * sizeof(ClvReceiver) + 100 * sizeof(uint) + 800 * (sizeof(uint) + sizeof(float)) + 100 * sizeof(vec4);
+    EXPECT_EQ(lightFrame(settings).bytes(), expected);
+}
+
+TEST(LightFrame, growsByEachLevelAlone) {
+    LightFrameSettings one = smallSettings(), two = one;
+    two.levels.push_back(levelOf(32));
+    LightFrameSettings other = one;
+    other.levels = {levelOf(32)};
+    LightFrameSettings none = one;
+    none.levels.clear();
+    EXPECT_EQ(lightFrame(two).bytes() - lightFrame(one).bytes(), lightFrame(other).bytes() - lightFrame(none).bytes());
+}
+
+TEST(LightFrame, holdsTheLargestNumberOfRaysAndNoMore) {
+    for (const InjectWay inject : kWays) {
+        for (const int resolution : {16, 32, 64}) {
+            LightFrameSettings settings = smallSettings(inject);
+            settings.halves = 2, settings.levels = {levelOf(resolution)};
+            settings.rays = largestFrameRays(settings);
+            EXPECT_EQ(settings.rays % 2, 0u);
+            EXPECT_EQ(checkFrame(lightFrame(settings)), std::vector<std::string>());
+            settings.rays += CLV_GROUP_SIZE;
+            EXPECT_NE(checkFrame(lightFrame(settings)), std::vector<std::string>()) << int(inject) << " " << resolution;
+        }
+    }
+}
+
+TEST(LightFrame, isLimitedByWorkGroupsWhereMemoryIsPlenty) {
+    LightFrameSettings settings = smallSettings(InjectWay::floatAtomics);
+    const FrameLimits limits{.storageBytes = std::uint64_t(1) << 32};
+    EXPECT_EQ(largestFrameRays(settings, limits), 65535u * CLV_GROUP_SIZE);
+    settings.rays = largestFrameRays(settings, limits);
+    EXPECT_EQ(checkFrame(lightFrame(settings), limits), std::vector<std::string>());
+}
+
+// A straight line through the middle of a volume's bricks meets as many as the lists have room for.
+TEST(LightFrame, listsHoldTheLongestWayOfARay) {
+    ClvVolume volume{};
+    volume.resolution = ivec3(6, 4, 2);
+    const ivec3 bricks = frameBricks(volume);
+    EXPECT_EQ(bricks, ivec3(3, 2, 1));
+    std::set<std::vector<int>> met;
+    const vec3 from(0.1f, 0.05f, 0.5f), to(2.9f, 1.97f, 0.5f);
+    for (int i = 0; i <= 10000; ++i) {
+        const vec3 p = from + (to - from) * (float(i) / 10000.0f);
+        met.insert({int(p.x), int(p.y), int(p.z)});
+    }
+    EXPECT_EQ(met.size(), frameBricksOfRay(volume));
+}
+
+}  // namespace
