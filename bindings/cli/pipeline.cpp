@@ -100,7 +100,7 @@ public:
     LightRun(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
              std::span<const ReferencePoint> points)
         : scene_(scene), options_(options), seed_(seed), parallelFor_(parallelFor), points_(receiversOf(points)),
-          needs_(planNeeds(sceneFacts(scene, options))), automatic_(needs_.halves > 1), layout_{options.storage, needs_.channels} {
+          needs_(planNeeds(sceneFacts(scene, options))), automatic_(needs_.halves > 1), layout_{options.storage, needs_.channels, needs_.frame} {
         if (!worksAtAll()) return;
         clock_.time("setup", [&] {
             embree_.emplace(scene);
@@ -339,7 +339,7 @@ private:
     void estimate(const Volume& volume, const LookupTable& lookup, HalfEstimates& estimates) const {
         for (auto& half : estimates.half) half.resize(judges_.size());
         forReceivers(judges_.size(), [&](std::size_t i) {
-            const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, judges_[i].normal);
+            const ClvCoefficients coefficients = layout_.read(judges_[i].normal);
             for (int half = 0; half < 2; ++half) estimates.half[half][i] = lookup.irradiance(i, layout_, volume.history(half), coefficients);
         });
     }
@@ -370,7 +370,7 @@ private:
     // The chosen levels, mixed: E at receivers is added to `sum`, times `scale`.
     void read(const Lit& lit, LookupTable Lookups::*which, std::span<const ClvReceiver> receivers, float scale, std::span<glm::vec3> sum) const {
         forReceivers(receivers.size(), [&](std::size_t i) {
-            const ClvCoefficients coefficients = clvReadCoefficients(options_.storage, receivers[i].normal);
+            const ClvCoefficients coefficients = layout_.read(receivers[i].normal);
             for (std::size_t l = 0; l < lit.lighting->volumes().size(); ++l) {
                 if (lit.mix[l] == 0.0) continue;
                 const Volume& volume = lit.lighting->volumes()[l];

@@ -13,7 +13,7 @@ namespace {
 // Upper bounds on the memory of one resolution: every cell with a record, none of them left out.
 Report describeResolution(const Scene& scene, int resolution, const LightOptions& options, const Needs& needs) {
     const ClvVolume volume = volumeOver(scene, resolution, options);
-    const DepositLayout layout{options.storage, needs.channels};
+    const DepositLayout layout{options.storage, needs.channels, needs.frame};
     const std::size_t cells = std::size_t(volume.resolution.x) * volume.resolution.y * volume.resolution.z;
     const std::uint64_t rays = options.seconds > 0.0 ? UINT64_MAX : options.rays;
     // A set of volumes for what surfaces receive, and with feedback two more that take turns.

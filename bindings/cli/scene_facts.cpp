@@ -2,10 +2,23 @@
 
 #include <algorithm>
 
+#include "clv/plan/direction_frame.h"
+
 namespace clv {
 namespace {
 
 constexpr std::uint64_t kManyRays = 512 << 10;  // from which on the volumes are filled in more pieces
+
+// Each triangle's normal, as long as its area is large, m^2.
+std::vector<vec3> faceAreas(const Scene& scene) {
+    std::vector<vec3> areas;
+    areas.reserve(scene.triangles.size());
+    for (const glm::uvec3& t : scene.triangles) {
+        const vec3& corner = scene.positions[t.x];
+        areas.push_back(0.5f * cross(scene.positions[t.y] - corner, scene.positions[t.z] - corner));
+    }
+    return areas;
+}
 
 bool isGrey(const glm::vec3& v) { return v.x == v.y && v.y == v.z; }
 
@@ -23,6 +36,7 @@ SceneFacts sceneFacts(const Scene& scene, const LightOptions& options) {
     facts.anyLight = std::ranges::any_of(scene.lights, sendsLight);
     facts.allBounces = options.allBounces;
     facts.resolutionGiven = options.resolution > 0;
+    facts.frame = directionFrame(faceAreas(scene));
     return facts;
 }
 

@@ -105,7 +105,7 @@ int main() {
         const ClvReceiver receiver{inwards * -kRadius, 0.0f, inwards, 0.0f};
         SlotWeights weights;
         lookupWeights(volume.level(), receiver, {}, weights);
-        const ClvCoefficients read = clvReadCoefficients(settings.layout.storage, receiver.normal);
+        const ClvCoefficients read = settings.layout.read(receiver.normal);
         float irradiance = 0.0f;
         for (int half = 0; half < settings.parts.halves; ++half) {
             irradiance += readIrradiance(settings.layout, volume.history(half), weights, read).x / float(settings.parts.halves);

@@ -47,6 +47,7 @@
 #include "stages/rsm.h"
 #include "stages/trace.h"
 #include "plan/cascade_placement.h"
+#include "plan/direction_frame.h"
 #include "plan/frame.h"
 #include "plan/frame_check.h"
 #include "plan/light_frame.h"

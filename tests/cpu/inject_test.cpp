@@ -7,6 +7,7 @@
 #include "clv/cpu/aligned.h"
 #include "clv/cpu/evaluate.h"
 #include "support/chi_square.h"
+#include "support/rotation.h"
 #include "support/z_test.h"
 
 using namespace clv;
@@ -64,7 +65,7 @@ vec3 readCell(const Level& level, const DepositLayout& layout, const AlignedFloa
     weights.count = 1;
     weights.slot[0] = level.table[clvCellIndex(level.volume, cell)];
     weights.weight[0] = 1.0f / level.slots[weights.slot[0]].openVolume;
-    return readIrradiance(layout, deposits, weights, clvReadCoefficients(layout.storage, normal));
+    return readIrradiance(layout, deposits, weights, layout.read(normal));
 }
 
 TEST(Inject, aParallelBeamGivesEveryCellItCrossesFluxOverAreaTimesTheCosine) {
@@ -104,6 +105,41 @@ TEST(Inject, aParallelBeamGivesEveryCellItCrossesFluxOverAreaTimesTheCosine) {
             }
         }
     }
+}
+
+TEST(Inject, aFrameSquareToAWallReadsNothingOfWhatTheWallSendsOut) {
+    const Level level = openLevel(4);
+    const mat3 frame = test::turned(0.7f, vec3(0.3f, -0.5f, 0.8f));
+    const vec3 wall = vec3(1.0f, 0.0f, 0.0f) * frame;  // axis 0, in the volume's space
+    std::vector<ClvRay> away;
+    float received = 0.0f;
+    for (const ClvRay& ray : someRays(200)) {
+        away.push_back(ray);
+        if (dot(away.back().direction, wall) < 0.0f) away.back().direction = -away.back().direction;
+    }
+    for (const bool turned : {false, true}) {
+        DepositLayout layout{kClvStorageCube9, 3};
+        if (turned) layout.frame = frame;
+        const AlignedFloats deposits = injected(level, layout, away);
+        float read = 0.0f, sent = 0.0f;
+        for (uint cell = 0; cell < level.slots.size(); ++cell) {
+            const ivec3 at = clvCellFromIndex(level.volume, cell);
+            read += readCell(level, layout, deposits, at, wall).y;
+            sent += readCell(level, layout, deposits, at, -wall).y;
+        }
+        ASSERT_GT(sent, 0.0f);
+        if (turned) EXPECT_LT(read, 1e-5f * sent);
+        else EXPECT_GT(read, 1e-3f * sent);
+        if (turned) received = sent;
+    }
+    // Flux * cosine * length over the volume of a cell, which is exact along the axes of the frame.
+    double expected = 0.0;
+    for (ClvRay& ray : away) {
+        double inside = ray.maxDistance;
+        for (int axis = 0; axis < 3; ++axis) inside = std::min(inside, ((ray.direction[axis] > 0.0f ? 1.0 : 0.0) - ray.origin[axis]) / ray.direction[axis]);
+        expected += ray.flux.y * inside * dot(ray.direction, wall);
+    }
+    EXPECT_NEAR(received, expected * double(level.slots.size()), 1e-4 * received);
 }
 
 TEST(Inject, everyCellOfAnIsotropicFieldHasTheSameIrradiance) {

@@ -37,6 +37,15 @@ TEST(Needs, aSceneWithoutLightNeedsNothing) {
     EXPECT_FALSE(needs.decisions[0].needed);
 }
 
+TEST(Needs, directionsAreTurnedOnlyWhereTheSceneHasAxesOfItsOwn) {
+    SceneFacts facts;
+    EXPECT_FALSE(decisionOn(planNeeds(facts), "turned directions").needed);
+    EXPECT_EQ(planNeeds(facts).frame, mat3(1.0f));
+    facts.frame = mat3(vec3(0.6f, 0.8f, 0.0f), vec3(-0.8f, 0.6f, 0.0f), vec3(0.0f, 0.0f, 1.0f));
+    EXPECT_TRUE(decisionOn(planNeeds(facts), "turned directions").needed);
+    EXPECT_EQ(planNeeds(facts).frame, facts.frame);
+}
+
 TEST(Needs, aStillSceneNeedsNoDynamicityNoScrollingAndOneCascade) {
     SceneFacts facts;
     facts.cascadesInBounds = 4;

@@ -39,7 +39,8 @@ inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> 
             std::fill(std::begin(out.dynamicity[i]), std::end(out.dynamicity[i]), 0.0f);
             continue;
         }
-        const ClvCoefficients c = clvDepositCoefficients(layout.storage, ray.direction);
+        const vec3 direction = layout.frame * ray.direction;
+        const ClvCoefficients c = clvDepositCoefficients(layout.storage, direction);
         const float f[9] = {c.a.x, c.a.y, c.a.z, c.a.w, c.b.x, c.b.y, c.b.z, c.b.w, c.c};
         if (layout.channels == 1) {
             const float flux = (ray.flux.x + ray.flux.y + ray.flux.z) * (1.0f / 3.0f);
@@ -53,8 +54,8 @@ inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> 
         }
         if (withDynamicity) {
             for (int axis = 0; axis < 3; ++axis) {
-                out.dynamicity[i][2 * axis] = ray.direction[axis] < 0.0f ? ray.dynamicity : 0.0f;
-                out.dynamicity[i][2 * axis + 1] = ray.direction[axis] > 0.0f ? ray.dynamicity : 0.0f;
+                out.dynamicity[i][2 * axis] = direction[axis] < 0.0f ? ray.dynamicity : 0.0f;
+                out.dynamicity[i][2 * axis + 1] = direction[axis] > 0.0f ? ray.dynamicity : 0.0f;
             }
         }
     }

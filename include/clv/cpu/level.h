@@ -46,10 +46,13 @@ inline uint slotAtPosition(const Level& level, uint entry, const vec3& position)
 struct DepositLayout {
     uint storage = kClvStorageCube9;
     int channels = 3;  // 3, or 1 in a scene without colour
+    mat3 frame{1.0f};  // orthonormal, rows the axes along which directions are kept; see plan/direction_frame.h
 
     int values() const { return int(clvCoefficientCount(storage)) * channels; }
     int stride() const { return (values() + 7) / 8 * 8; }  // floats
     std::size_t bytes(std::size_t slots) const { return slots * std::size_t(stride()) * sizeof(float); }
+    // How a record is read for a normal, in the space of the volume.
+    ClvCoefficients read(const vec3& normal) const { return clvReadCoefficients(storage, frame * normal); }
 };
 
 // Number of cells along x, y and z, and their place, so that cubes of side cbrt(volume of the bounds) / n cover the bounds.

@@ -78,7 +78,7 @@ public:
     vec3 irradiance(const ClvReceiver& receiver, const LookupOptions& lookup) const {
         SlotWeights weights;
         lookupWeights(level(), receiver, lookup, weights);
-        return readIrradiance(settings_.layout, history_.deposits, weights, clvReadCoefficients(settings_.layout.storage, receiver.normal));
+        return readIrradiance(settings_.layout, history_.deposits, weights, settings_.layout.read(receiver.normal));
     }
 
     // Forgets all light, and stays where it is.

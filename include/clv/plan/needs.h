@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "../lang.h"
+
 namespace clv {
 
 struct SceneFacts {
@@ -15,6 +17,7 @@ struct SceneFacts {
     int cascadesInBounds = 1;     // cascades that still add space inside the scene's bounds
     bool allBounces = false;
     bool resolutionGiven = false;
+    mat3 frame{1.0f};             // see directionFrame
 };
 
 // One decision and its reason, for people.
@@ -32,6 +35,7 @@ struct Needs {
     int cascades = 1;
     int halves = 2;          // of the rays, for judging resolutions
     bool feedback = true;    // surfaces send on what the volume says they receive
+    mat3 frame{1.0f};        // in which cells keep directions
     std::vector<Decision> decisions;
 };
 
@@ -51,6 +55,9 @@ inline Needs planNeeds(const SceneFacts& facts) {
     needs.cascades = decide("further cascades", moreCascades, "the scene reaches beyond the first one", "the first volume holds the scene") ? facts.cascadesInBounds : 1;
     needs.halves = decide("two halves", !facts.resolutionGiven, "they judge which resolution errs least", "the resolution is given") ? 2 : 1;
     needs.feedback = decide("feedback", facts.allBounces, "all bounces are asked for", "one bounce is asked for: surfaces send nothing on");
+    const bool turned = decide("turned directions", facts.frame != mat3(1.0f), "most surfaces face axes of their own: cells keep directions along those",
+                               "the axes of the grid serve as well as any");
+    if (turned) needs.frame = facts.frame;
     decide("cells that nothing reads", false, "", "a cell farther from every point than a lookup reaches has no record");
     return needs;
 }
