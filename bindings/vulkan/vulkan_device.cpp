@@ -31,13 +31,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate)
     }
     const vk::ValidationFeatureEnableEXT synchronisation = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
     const vk::ValidationFeaturesEXT features(synchronisation);
-    const vk::InstanceCreateInfo create({}, &application, layers, extensions, validate ? &features : nullptr);
-    return vk::raii::Instance(context, create);
-}
-
-bool hasExtension(const vk::raii::PhysicalDevice& device, const char* name) {
-    const auto extensions = device.enumerateDeviceExtensionProperties();
-    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::string(e.extensionName.data()) == name; });
+    return {context, vk::InstanceCreateInfo({}, &application, layers, extensions, validate ? &features : nullptr)};
 }
 
 std::string typeName(vk::PhysicalDeviceType type) {
@@ -50,31 +44,53 @@ std::string typeName(vk::PhysicalDeviceType type) {
     }
 }
 
-VulkanDeviceInfo describe(const vk::raii::PhysicalDevice& device) {
-    VulkanDeviceInfo info;
-    const auto properties = device.getProperties();
-    info.name = properties.deviceName.data();
-    info.apiVersion = properties.apiVersion;
-    info.type = typeName(properties.deviceType);
-    const std::uint32_t v = properties.driverVersion;
-    info.driver = std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." + std::to_string(VK_API_VERSION_PATCH(v));
-    if (hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) {
-        const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
-        const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
-        info.driver = std::string(driver.driverName.data()) + " " + driver.driverInfo.data();
-    }
-    for (const auto& heap : device.getMemoryProperties().memoryHeaps) {
-        if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal) info.memory = std::max<std::uint64_t>(info.memory, heap.size);
-    }
+bool hasExtension(const vk::raii::PhysicalDevice& device, const char* name) {
+    const auto extensions = device.enumerateDeviceExtensionProperties();
+    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::string(e.extensionName.data()) == name; });
+}
+
+VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
+    VulkanFeatures features;
     if (hasExtension(device, VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME)) {
         const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT>();
-        info.features.floatAtomics = chain.get<vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT>().shaderBufferFloat32AtomicAdd;
+        features.floatAtomics = chain.get<vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT>().shaderBufferFloat32AtomicAdd;
     }
     const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
     const auto& subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>();
     const bool shuffles = (subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) && (subgroup.supportedOperations & vk::SubgroupFeatureFlagBits::eShuffle);
-    info.features.subgroupSize = shuffles ? subgroup.subgroupSize : 0;
-    info.features.rayTracingPipelines = hasExtension(device, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    features.subgroupSize = shuffles ? subgroup.subgroupSize : 0;
+    features.rayTracingPipelines = hasExtension(device, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    return features;
+}
+
+FrameLimits limitsOf(const vk::raii::PhysicalDevice& device) {
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>();
+    const vk::PhysicalDeviceLimits& limits = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
+    const std::uint64_t allocation = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize;
+    return {.groups = *std::min_element(limits.maxComputeWorkGroupCount.begin(), limits.maxComputeWorkGroupCount.end()),
+            .storageBuffers = limits.maxPerStageDescriptorStorageBuffers,
+            .uniformBytes = limits.maxUniformBufferRange,
+            .storageBytes = std::min<std::uint64_t>(limits.maxStorageBufferRange, allocation),
+            .texelElements = limits.maxTexelBufferElements};
+}
+
+std::string driverOf(const vk::raii::PhysicalDevice& device) {
+    if (hasExtension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) {
+        const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+        return std::string(driver.driverName.data()) + " " + driver.driverInfo.data();
+    }
+    const std::uint32_t v = device.getProperties().driverVersion;
+    return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) + "." + std::to_string(VK_API_VERSION_PATCH(v));
+}
+
+VulkanDeviceInfo describe(const vk::raii::PhysicalDevice& device) {
+    const auto properties = device.getProperties();
+    VulkanDeviceInfo info{.name = properties.deviceName.data(), .driver = driverOf(device), .type = typeName(properties.deviceType), .apiVersion = properties.apiVersion,
+                          .memory = 0, .limits = limitsOf(device), .features = featuresOf(device)};
+    for (const auto& heap : device.getMemoryProperties().memoryHeaps) {
+        if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal) info.memory = std::max<std::uint64_t>(info.memory, heap.size);
+    }
     return info;
 }
 
@@ -86,78 +102,84 @@ int computeFamily(const vk::raii::PhysicalDevice& device) {
     return -1;
 }
 
+// Not empty.
 std::vector<vk::raii::PhysicalDevice> usableDevices(const vk::raii::Instance& instance) {
     std::vector<vk::raii::PhysicalDevice> usable;
     for (const vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
         if (device.getProperties().apiVersion >= VK_API_VERSION_1_1 && computeFamily(device) >= 0) usable.push_back(device);
     }
+    if (usable.empty()) throw std::runtime_error("Vulkan: no device with Vulkan 1.1 and compute");
     return usable;
 }
 
-std::size_t chooseDevice(const std::vector<vk::raii::PhysicalDevice>& devices, const std::string& wanted) {
-    if (devices.empty()) throw std::runtime_error("Vulkan: no device with Vulkan 1.1 and compute");
+vk::raii::PhysicalDevice chooseDevice(const vk::raii::Instance& instance, const std::string& wanted) {
+    const auto devices = usableDevices(instance);
     std::size_t index = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (!wanted.empty() && error == std::errc() && end == wanted.data() + wanted.size()) {
-        if (index < devices.size()) return index;
-        throw std::runtime_error("Vulkan: no device " + wanted + ", there are " + std::to_string(devices.size()));
+    const char* end = wanted.data() + wanted.size();
+    const auto [rest, error] = std::from_chars(wanted.data(), end, index);
+    if (!wanted.empty() && error == std::errc() && rest == end) {
+        if (index < devices.size()) return devices[index];
+        throw std::runtime_error("Vulkan: no device " + wanted + ", they count from 0 to " + std::to_string(devices.size() - 1));
     }
-    for (std::size_t i = 0; i < devices.size(); ++i) {
-        const auto properties = devices[i].getProperties();
-        const bool fits = wanted.empty() ? properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu
-                                         : std::string(properties.deviceName.data()).find(wanted) != std::string::npos;
-        if (fits) return i;
+    std::string names;
+    for (const auto& device : devices) {
+        const auto properties = device.getProperties();
+        const std::string name = properties.deviceName.data();
+        const bool fits = wanted.empty() ? properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu : name.find(wanted) != std::string::npos;
+        if (fits) return device;
+        names += (names.empty() ? "" : ", ") + name;
     }
-    if (wanted.empty()) return 0;
-    throw std::runtime_error("Vulkan: no device with \"" + wanted + "\" in its name");
+    if (wanted.empty()) return devices.front();
+    throw std::runtime_error("Vulkan: no device with \"" + wanted + "\" in its name; there is " + names);
 }
 
 }  // namespace
 
-std::vector<VulkanDeviceInfo> vulkanDevices() {
-    std::vector<VulkanDeviceInfo> infos;
-    try {
-        const vk::raii::Context context;
+std::vector<VulkanDeviceInfo> vulkanDevices(const std::string& loader) {
+    return inWords([&] {
+        const VulkanLoader library(loader);
+        const vk::raii::Context context(library.entry());
         const vk::raii::Instance instance = makeInstance(context, false);
+        std::vector<VulkanDeviceInfo> infos;
         for (const auto& device : usableDevices(instance)) infos.push_back(describe(device));
-    } catch (const std::exception&) {
-        // No loader, or one without any driver: there are no devices.
-    }
-    return infos;
+        return infos;
+    });
 }
 
-VulkanDevice::VulkanDevice(const VulkanOptions& options) : impl_(std::make_unique<Impl>()) {
-    Impl& d = *impl_;
-    try {
-        d.instance = makeInstance(d.context, options.validate);
-        if (options.validate) {
-            using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-            using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-            d.messenger = vk::raii::DebugUtilsMessengerEXT(d.instance, vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
-                                                                                                             Type::eValidation | Type::ePerformance, onMessage, &d));
-        }
-        const auto devices = usableDevices(d.instance);
-        d.physical = devices[chooseDevice(devices, options.device)];
-        d.info = describe(d.physical);
-        d.queueFamily = std::uint32_t(computeFamily(d.physical));
-        const bool timestamps = d.physical.getQueueFamilyProperties()[d.queueFamily].timestampValidBits > 0;
-        d.timestampPeriod = timestamps ? d.physical.getProperties().limits.timestampPeriod : 0.0f;
-
-        const float priority = 1.0f;
-        const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
-        std::vector<const char*> extensions;
-        vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT atomics;
-        atomics.shaderBufferFloat32AtomicAdd = true;
-        if (d.info.features.floatAtomics) extensions.push_back(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
-        const vk::PhysicalDeviceFeatures features{};
-        const vk::DeviceCreateInfo create({}, queue, {}, extensions, &features, d.info.features.floatAtomics ? &atomics : nullptr);
-        d.device = vk::raii::Device(d.physical, create);
-        d.queue = vk::raii::Queue(d.device, d.queueFamily, 0);
-    } catch (const vk::SystemError& error) {
-        throw std::runtime_error(std::string("Vulkan: ") + error.what());
-    }
+InjectWay defaultInject(const VulkanFeatures& features) {
+    // Eight lanes of a subgroup fill the eight cells of a brick.
+    if (features.subgroupSize > 0 && features.subgroupSize % 8 == 0) return InjectWay::bricks;
+    return features.floatAtomics ? InjectWay::floatAtomics : InjectWay::fixedPoint;
 }
 
+VulkanDevice::Impl::Impl(const VulkanOptions& options)
+    : loader(options.loader), context(loader.entry()), instance(makeInstance(context, options.validate)), physical(chooseDevice(instance, options.device)),
+      info(describe(physical)), enabled(info.features), queueFamily(std::uint32_t(computeFamily(physical))),
+      statesBudget(hasExtension(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME)) {
+    if (options.validate) {
+        using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+        using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+        messenger = vk::raii::DebugUtilsMessengerEXT(instance, {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, onMessage, this});
+    }
+    const std::uint32_t bits = physical.getQueueFamilyProperties()[queueFamily].timestampValidBits;
+    timestampPeriod = bits > 0 ? physical.getProperties().limits.timestampPeriod : 0.0f;
+    timestampMask = bits < 64 ? (std::uint64_t(1) << bits) - 1 : ~std::uint64_t(0);
+
+    std::vector<const char*> extensions;
+    vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT atomics;
+    atomics.shaderBufferFloat32AtomicAdd = true;
+    if (options.floatAtomics) {
+        if (!info.features.floatAtomics) throw std::runtime_error("Vulkan: " + info.name + " cannot add floats in buffers atomically");
+        extensions.push_back(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
+    }
+    enabled.floatAtomics = options.floatAtomics;
+    const float priority = 1.0f;
+    const vk::DeviceQueueCreateInfo queues({}, queueFamily, 1, &priority);
+    device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queues, {}, extensions, nullptr, options.floatAtomics ? &atomics : nullptr));
+    queue = vk::raii::Queue(device, queueFamily, 0);
+}
+
+VulkanDevice::VulkanDevice(const VulkanOptions& options) : impl_(inWords([&] { return std::make_unique<Impl>(options); })) {}
 VulkanDevice::~VulkanDevice() = default;
 
 const VulkanDeviceInfo& VulkanDevice::info() const { return impl_->info; }

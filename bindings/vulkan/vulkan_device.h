@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "clv/plan/frame_check.h"
+#include "clv/plan/light_frame.h"
+
 namespace clv {
 
 // What this library may use of a device where it is there.
@@ -20,20 +23,27 @@ struct VulkanDeviceInfo {
     std::string type;                // "discrete", "integrated", "virtual", "cpu" or "other"
     std::uint32_t apiVersion = 0;    // as Vulkan encodes it
     std::uint64_t memory = 0;        // bytes of the largest device-local heap
+    FrameLimits limits;
     VulkanFeatures features;
 };
 
 struct VulkanOptions {
-    std::string device;              // index or part of a name; empty: the first discrete one, else the first
+    std::string device{};            // index or part of a name; empty: the first discrete one, else the first
+    bool floatAtomics = false;       // switch them on, for shaders that add floats in buffers
     bool validate = false;           // Khronos' validation layer with synchronisation validation; its messages count as errors
+    std::string loader{};            // file name of the Vulkan loader's library; empty: the system's
 };
 
-// Devices that can run compute with Vulkan 1.1, in the loader's order. Empty without a loader or a driver.
-std::vector<VulkanDeviceInfo> vulkanDevices();
+// Devices that can run compute with Vulkan 1.1, in the loader's order.
+// Throws std::runtime_error with one line that says why there is none.
+std::vector<VulkanDeviceInfo> vulkanDevices(const std::string& loader = {});
+
+// How a device with these features adds up crossings, unless told otherwise.
+InjectWay defaultInject(const VulkanFeatures& features);
 
 class VulkanDevice {
 public:
-    // Throws std::runtime_error with one line: no loader, no device, no such device, a missing feature.
+    // Throws std::runtime_error with one line: no loader, no driver, no device, no such device, a missing feature.
     explicit VulkanDevice(const VulkanOptions& options = {});
     ~VulkanDevice();
     VulkanDevice(const VulkanDevice&) = delete;

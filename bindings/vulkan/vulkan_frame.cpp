@@ -1,19 +1,15 @@
 #include "bindings/vulkan/vulkan_frame.h"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <stdexcept>
 
-#include "bindings/vulkan/vulkan_device_impl.h"
+#include "bindings/vulkan/shader_interface.h"
+#include "bindings/vulkan/vulkan_memory.h"
 
 namespace clv {
 namespace {
-
-struct Buffer {
-    vk::raii::DeviceMemory memory = nullptr;
-    vk::raii::Buffer buffer = nullptr;
-    vk::DeviceSize bytes = 0;
-};
 
 struct Pass {
     vk::raii::DescriptorSetLayout setLayout = nullptr;
@@ -27,6 +23,12 @@ struct Step {
     std::vector<Pass> passes;
     vk::raii::CommandBuffer commands = nullptr;
     vk::raii::QueryPool timestamps = nullptr;
+    bool hasRun = false;
+};
+
+// Where a buffer that the host cannot reach has its copy, and how much of that is newer than the buffer.
+struct Staged {
+    vk::DeviceSize offset = 0, newBytes = 0;
 };
 
 vk::DescriptorType descriptorType(FrameBinding binding) {
@@ -34,6 +36,14 @@ vk::DescriptorType descriptorType(FrameBinding binding) {
         case FrameBinding::uniform: return vk::DescriptorType::eUniformBuffer;
         case FrameBinding::texel: return vk::DescriptorType::eUniformTexelBuffer;
         default: return vk::DescriptorType::eStorageBuffer;
+    }
+}
+
+vk::BufferUsageFlags usageOf(FrameBinding binding) {
+    switch (binding) {
+        case FrameBinding::uniform: return vk::BufferUsageFlagBits::eUniformBuffer;
+        case FrameBinding::texel: return vk::BufferUsageFlagBits::eUniformTexelBuffer;
+        default: return vk::BufferUsageFlagBits::eStorageBuffer;
     }
 }
 
@@ -46,11 +56,31 @@ vk::Format formatOf(FrameFormat format) {
     }
 }
 
-vk::AccessFlags accessOf(FrameAccess access) {
+vk::PipelineStageFlags stageOf(const FramePass& pass) {
+    return pass.shader.empty() ? vk::PipelineStageFlagBits::eTransfer : vk::PipelineStageFlagBits::eComputeShader;
+}
+
+// How the pass touches the buffer.
+vk::AccessFlags accessTo(const FramePass& pass, std::uint32_t buffer) {
+    if (pass.shader.empty()) return vk::AccessFlagBits::eTransferWrite;
     vk::AccessFlags flags;
-    if (frameReads(access)) flags |= vk::AccessFlagBits::eShaderRead;
-    if (frameWrites(access)) flags |= vk::AccessFlagBits::eShaderWrite;
+    for (const FrameUse& use : pass.uses) {
+        if (use.buffer != buffer) continue;
+        if (frameReads(use.access)) flags |= use.binding == FrameBinding::uniform ? vk::AccessFlagBits::eUniformRead : vk::AccessFlagBits::eShaderRead;
+        if (frameWrites(use.access)) flags |= vk::AccessFlagBits::eShaderWrite;
+    }
     return flags;
+}
+
+// All that is done before, the host's part too, is over and visible to all that follows.
+void orderAll(const vk::raii::CommandBuffer& commands) {
+    const vk::AccessFlags all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
+    const vk::PipelineStageFlags stages = vk::PipelineStageFlagBits::eAllCommands | vk::PipelineStageFlagBits::eHost;
+    commands.pipelineBarrier(stages, stages, {}, vk::MemoryBarrier(all, all), {}, {});
+}
+
+void throwFirst(const std::vector<std::string>& faults) {
+    if (!faults.empty()) throw std::runtime_error("the frame cannot run: " + faults.front());
 }
 
 }  // namespace
@@ -58,61 +88,58 @@ vk::AccessFlags accessOf(FrameAccess access) {
 struct VulkanFrame::Impl {
     VulkanDevice::Impl& device;
     const Frame frame;
-    std::vector<Buffer> buffers;
-    Buffer staging;
+    std::vector<VulkanBuffer> buffers;
+    std::vector<Staged> uploads;                      // of each buffer
+    VulkanBuffer uploadCopies, downloadCopy;          // in the host's memory
     vk::raii::DescriptorPool descriptors = nullptr;
     vk::raii::CommandPool commandPool = nullptr;
     vk::raii::CommandBuffer transfer = nullptr;
     vk::raii::Fence fence = nullptr;
-    std::map<std::string, Step> steps;
+    std::vector<Step> steps;
+    std::vector<vk::CommandBuffer> submission;
 
     Impl(VulkanDevice::Impl& d, const Frame& f, ShaderLanguage language) : device(d), frame(f) {
-        makeBuffers();
+        throwFirst(checkFrame(frame, device.info.limits));
+        takeMemory();
         makeDescriptorPool();
         commandPool = vk::raii::CommandPool(device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
-        transfer = std::move(vk::raii::CommandBuffers(device.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}).front());
+        transfer = makeCommands();
         fence = vk::raii::Fence(device.device, vk::FenceCreateInfo());
-        for (const FrameStep& step : frame.steps) makeStep(step, language);
+        for (const FrameStep& step : frame.steps) steps.push_back(makeStep(step, language));
+        submission.reserve(steps.size() + 1);
         clearBuffers();
     }
 
-    std::uint32_t memoryType(std::uint32_t allowed, vk::MemoryPropertyFlags wanted) const {
-        const auto properties = device.physical.getMemoryProperties();
-        for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
-            if ((allowed >> i & 1u) && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-        }
-        throw std::runtime_error("Vulkan: the device has no memory of the kind that a buffer needs");
-    }
-
-    Buffer makeBuffer(vk::DeviceSize bytes, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags properties) const {
-        Buffer b;
-        b.bytes = bytes;
-        b.buffer = vk::raii::Buffer(device.device, {{}, bytes, usage, vk::SharingMode::eExclusive});
-        const auto needs = b.buffer.getMemoryRequirements();
-        b.memory = vk::raii::DeviceMemory(device.device, {needs.size, memoryType(needs.memoryTypeBits, properties)});
-        b.buffer.bindMemory(*b.memory, 0);
-        return b;
-    }
-
-    void makeBuffers() {
-        vk::DeviceSize largest = 0;
+    void takeMemory() {
+        const auto copied = vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc;
+        std::vector<VulkanBufferWish> wishes;
+        vk::DeviceSize hostBytes = 0, largestRead = 0;
         for (const FrameBuffer& buffer : frame.buffers) {
-            vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc;
-            for (const FrameStep& step : frame.steps) {
-                for (const FramePass& pass : step.passes) {
-                    for (const FrameUse& use : pass.uses) {
-                        if (&frame.buffers[use.buffer] != &buffer) continue;
-                        usage |= use.binding == FrameBinding::uniform ? vk::BufferUsageFlagBits::eUniformBuffer
-                                 : use.binding == FrameBinding::texel ? vk::BufferUsageFlagBits::eUniformTexelBuffer
-                                                                      : vk::BufferUsageFlagBits::eStorageBuffer;
-                    }
-                }
-            }
-            buffers.push_back(makeBuffer(buffer.bytes, usage, vk::MemoryPropertyFlagBits::eDeviceLocal));
-            if (buffer.source == FrameSource::host || buffer.readBack) largest = std::max(largest, vk::DeviceSize(buffer.bytes));
+            VulkanBufferWish wish{buffer.bytes, copied};
+            if (buffer.readBack) wish.use = VulkanMemoryUse::download, largestRead = std::max(largestRead, wish.bytes);
+            uploads.push_back({hostBytes, 0});
+            if (buffer.source == FrameSource::host) wish.use = VulkanMemoryUse::upload, hostBytes += wish.bytes;
+            wishes.push_back(wish);
         }
-        staging = makeBuffer(std::max<vk::DeviceSize>(largest, 4), vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst,
-                             vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
+        for (const FrameStep& step : frame.steps) {
+            for (const FramePass& pass : step.passes) {
+                for (const FrameUse& use : pass.uses) wishes[use.buffer].usage |= usageOf(use.binding);
+            }
+        }
+        buffers = makeBuffers(device, wishes);
+        bool copiesUp = false, copiesDown = false;
+        for (std::size_t i = 0; i < buffers.size(); ++i) {
+            if (buffers[i].mapped != nullptr) continue;
+            copiesUp = copiesUp || frame.buffers[i].source == FrameSource::host;
+            copiesDown = copiesDown || frame.buffers[i].readBack;
+        }
+        if (copiesUp) uploadCopies = makeHostCopy(hostBytes, VulkanMemoryUse::upload);
+        if (copiesDown) downloadCopy = makeHostCopy(largestRead, VulkanMemoryUse::download);
+    }
+
+    VulkanBuffer makeHostCopy(vk::DeviceSize bytes, VulkanMemoryUse use) const {
+        const VulkanBufferWish wish{bytes, vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc, use, true};
+        return std::move(makeBuffers(device, std::span(&wish, 1)).front());
     }
 
     void makeDescriptorPool() {
@@ -125,20 +152,43 @@ struct VulkanFrame::Impl {
                 for (const FrameUse& use : pass.uses) ++counts[descriptorType(use.binding)];
             }
         }
+        if (sets == 0) return;
         std::vector<vk::DescriptorPoolSize> sizes;
         for (const auto& [type, count] : counts) sizes.emplace_back(type, count);
         descriptors = vk::raii::DescriptorPool(device.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes});
     }
 
-    Pass makePass(const FramePass& pass, ShaderLanguage language) {
+    vk::raii::CommandBuffer makeCommands() const {
+        return std::move(vk::raii::CommandBuffers(device.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}).front());
+    }
+
+    Pass makePass(const FramePass& pass, ShaderLanguage language) const {
         Pass made;
+        if (pass.shader.empty()) return made;
+        const auto words = shaderCode(pass.shader, language);
+        throwFirst(shaderMismatches(frame, pass, shaderInterface(words), device.enabled));
         std::vector<vk::DescriptorSetLayoutBinding> bindings;
         for (const FrameUse& use : pass.uses) {
             bindings.emplace_back(frame.buffers[use.buffer].binding, descriptorType(use.binding), 1, vk::ShaderStageFlagBits::eCompute);
         }
         made.setLayout = vk::raii::DescriptorSetLayout(device.device, {{}, bindings});
         made.layout = vk::raii::PipelineLayout(device.device, {{}, *made.setLayout});
-        const auto words = shaderCode(pass.shader, language);
+        made.pipeline = makePipeline(pass, words, *made.layout);
+        made.set = std::move(vk::raii::DescriptorSets(device.device, {*descriptors, *made.setLayout}).front());
+        for (const FrameUse& use : pass.uses) {
+            const vk::Buffer buffer = *buffers[use.buffer].buffer;
+            const vk::DescriptorBufferInfo whole(buffer, 0, VK_WHOLE_SIZE);
+            vk::WriteDescriptorSet write(*made.set, frame.buffers[use.buffer].binding, 0, 1, descriptorType(use.binding), nullptr, &whole);
+            if (use.binding == FrameBinding::texel) {
+                made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, buffer, formatOf(use.format), 0, VK_WHOLE_SIZE));
+                write.pTexelBufferView = &*made.views.back();
+            }
+            device.device.updateDescriptorSets(write, {});
+        }
+        return made;
+    }
+
+    vk::raii::Pipeline makePipeline(const FramePass& pass, std::span<const std::uint32_t> words, vk::PipelineLayout layout) const {
         const vk::raii::ShaderModule module(device.device, {{}, words.size_bytes(), words.data()});
         std::vector<vk::SpecializationMapEntry> entries;
         std::vector<std::uint32_t> values;
@@ -148,59 +198,27 @@ struct VulkanFrame::Impl {
         }
         const vk::SpecializationInfo specialisation(std::uint32_t(entries.size()), entries.data(), values.size() * sizeof(std::uint32_t), values.data());
         const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &specialisation);
-        made.pipeline = vk::raii::Pipeline(device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *made.layout));
-        made.set = std::move(vk::raii::DescriptorSets(device.device, {*descriptors, *made.setLayout}).front());
-        for (const FrameUse& use : pass.uses) {
-            const Buffer& buffer = buffers[use.buffer];
-            const vk::DescriptorBufferInfo whole(*buffer.buffer, 0, VK_WHOLE_SIZE);
-            vk::WriteDescriptorSet write(*made.set, frame.buffers[use.buffer].binding, 0, 1, descriptorType(use.binding));
-            if (use.binding == FrameBinding::texel) {
-                made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, *buffer.buffer, formatOf(use.format), 0, VK_WHOLE_SIZE));
-                write.pTexelBufferView = &*made.views.back();
-                device.device.updateDescriptorSets(write, {});
-            } else {
-                write.pBufferInfo = &whole;
-                device.device.updateDescriptorSets(write, {});
-            }
-        }
-        return made;
+        return {device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
     }
 
-    void makeStep(const FrameStep& description, ShaderLanguage language) {
-        Step& step = steps[description.name];
-        for (const FramePass& pass : description.passes) step.passes.push_back(pass.shader.empty() ? Pass() : makePass(pass, language));
+    Step makeStep(const FrameStep& description, ShaderLanguage language) const {
+        Step step;
+        for (const FramePass& pass : description.passes) step.passes.push_back(makePass(pass, language));
         const std::uint32_t stamps = std::uint32_t(description.passes.size() + 1);
         const bool timed = device.timestampPeriod > 0.0f;
         if (timed) step.timestamps = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, stamps});
-        step.commands = std::move(vk::raii::CommandBuffers(device.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}).front());
-        step.commands.begin(vk::CommandBufferBeginInfo());
+        step.commands = makeCommands();
+        step.commands.begin({vk::CommandBufferUsageFlagBits::eSimultaneousUse});  // a submission may hold the step twice
         if (timed) step.commands.resetQueryPool(*step.timestamps, 0, stamps);
-        orderAfterEverything(step.commands);
+        orderAll(step.commands);
         if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, 0);
         for (std::size_t p = 0; p < description.passes.size(); ++p) {
             record(step, description, p);
             if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, std::uint32_t(p + 1));
         }
-        orderAfterEverything(step.commands);
+        orderAll(step.commands);
         step.commands.end();
-    }
-
-    static void orderAfterEverything(const vk::raii::CommandBuffer& commands) {
-        const auto all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, vk::MemoryBarrier(all, all), {}, {});
-    }
-
-    static vk::PipelineStageFlags stageOf(const FramePass& pass) {
-        return pass.shader.empty() ? vk::PipelineStageFlagBits::eTransfer : vk::PipelineStageFlagBits::eComputeShader;
-    }
-    static vk::AccessFlags accessTo(const FramePass& pass, std::uint32_t buffer) {
-        if (pass.shader.empty()) return vk::AccessFlagBits::eTransferWrite;
-        vk::AccessFlags flags;
-        for (const FrameUse& use : pass.uses) {
-            if (use.buffer != buffer) continue;
-            flags |= use.binding == FrameBinding::uniform ? vk::AccessFlags(vk::AccessFlagBits::eUniformRead) : accessOf(use.access);
-        }
-        return flags;
+        return step;
     }
 
     void record(const Step& step, const FrameStep& description, std::size_t p) const {
@@ -220,90 +238,114 @@ struct VulkanFrame::Impl {
         step.commands.dispatch(pass.groups.x, pass.groups.y, pass.groups.z);
     }
 
-    void submit(const vk::raii::CommandBuffer& commands) const {
-        const vk::CommandBuffer handle = *commands;
-        device.queue.submit(vk::SubmitInfo({}, {}, handle), *fence);
+    void submitAndWait() {
+        device.queue.submit(vk::SubmitInfo({}, {}, submission), *fence);
         if (device.device.waitForFences(*fence, true, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("Vulkan: the device does not answer");
         device.device.resetFences(*fence);
     }
 
     template <class Record>
-    void transferNow(Record&& recordCommands) const {
+    void recordTransfer(Record&& recordCommands) {
         transfer.reset();
         transfer.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        orderAfterEverything(transfer);
-        recordCommands(transfer);
-        orderAfterEverything(transfer);
+        orderAll(transfer);
+        recordCommands();
+        orderAll(transfer);
         transfer.end();
-        submit(transfer);
+        submission.push_back(*transfer);
+    }
+
+    bool hasNewUploads() const {
+        return std::any_of(uploads.begin(), uploads.end(), [](const Staged& staged) { return staged.newBytes > 0; });
+    }
+    void copyUploads() {
+        for (std::size_t i = 0; i < uploads.size(); ++i) {
+            if (uploads[i].newBytes == 0) continue;
+            transfer.copyBuffer(*uploadCopies.buffer, *buffers[i].buffer, vk::BufferCopy(uploads[i].offset, 0, uploads[i].newBytes));
+            uploads[i].newBytes = 0;
+        }
     }
 
     void clearBuffers() {
-        transferNow([&](const vk::raii::CommandBuffer& commands) {
+        recordTransfer([&] {
             for (std::size_t i = 0; i < buffers.size(); ++i) {
-                if (frame.buffers[i].source == FrameSource::zero) commands.fillBuffer(*buffers[i].buffer, 0, VK_WHOLE_SIZE, 0);
+                if (frame.buffers[i].source == FrameSource::zero) transfer.fillBuffer(*buffers[i].buffer, 0, VK_WHOLE_SIZE, 0);
             }
         });
+        submitAndWait();
     }
 
-    std::uint32_t find(const std::string& name, std::size_t bytes) const {
+    std::size_t bufferOf(std::string_view name, std::size_t bytes) const {
         const std::uint32_t i = frame.bufferIndex(name);
-        if (i == frame.buffers.size()) throw std::runtime_error("the frame has no buffer " + name);
-        if (bytes > frame.buffers[i].bytes) throw std::runtime_error("buffer " + name + " holds " + std::to_string(frame.buffers[i].bytes) + " bytes, not " + std::to_string(bytes));
+        if (i == frame.buffers.size()) throw std::runtime_error("the frame has no buffer " + std::string(name));
+        if (bytes > frame.buffers[i].bytes) throw std::runtime_error("buffer " + std::string(name) + " holds " + std::to_string(frame.buffers[i].bytes) + " bytes, not " + std::to_string(bytes));
         return i;
+    }
+
+    std::size_t stepOf(std::string_view name) const {
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            if (frame.steps[i].name == name) return i;
+        }
+        throw std::runtime_error("the frame has no step " + std::string(name));
     }
 };
 
 VulkanFrame::VulkanFrame(VulkanDevice& device, const Frame& frame, ShaderLanguage language)
-try : impl_(std::make_unique<Impl>(device.impl(), frame, language)) {
-} catch (const vk::SystemError& error) {
-    throw std::runtime_error(std::string("Vulkan: ") + error.what());
-}
-
+    : impl_(inWords([&] { return std::make_unique<Impl>(device.impl(), frame, language); })) {}
 VulkanFrame::~VulkanFrame() = default;
 
-void VulkanFrame::uploadBytes(const std::string& buffer, std::span<const std::byte> bytes) {
-    const std::uint32_t i = impl_->find(buffer, bytes.size());
-    if (impl_->frame.buffers[i].source != FrameSource::host) throw std::runtime_error("buffer " + buffer + " is not the host's to fill");
+void VulkanFrame::uploadBytes(std::string_view buffer, std::span<const std::byte> bytes) {
+    Impl& d = *impl_;
+    const std::size_t i = d.bufferOf(buffer, bytes.size());
+    if (d.frame.buffers[i].source != FrameSource::host) throw std::runtime_error("buffer " + std::string(buffer) + " is not the host's to fill");
     if (bytes.empty()) return;
-    void* mapped = impl_->staging.memory.mapMemory(0, bytes.size());
-    std::memcpy(mapped, bytes.data(), bytes.size());
-    impl_->staging.memory.unmapMemory();
-    impl_->transferNow([&](const vk::raii::CommandBuffer& commands) {
-        commands.copyBuffer(*impl_->staging.buffer, *impl_->buffers[i].buffer, vk::BufferCopy(0, 0, bytes.size()));
+    const bool direct = d.buffers[i].mapped != nullptr;
+    std::memcpy(direct ? d.buffers[i].mapped : d.uploadCopies.mapped + d.uploads[i].offset, bytes.data(), bytes.size());
+    if (!direct) d.uploads[i].newBytes = std::max<vk::DeviceSize>(d.uploads[i].newBytes, bytes.size());
+}
+
+void VulkanFrame::downloadBytes(std::string_view buffer, std::span<std::byte> bytes) {
+    Impl& d = *impl_;
+    const std::size_t i = d.bufferOf(buffer, bytes.size());
+    if (!d.frame.buffers[i].readBack) throw std::runtime_error("buffer " + std::string(buffer) + " is not declared as one that the host reads back");
+    if (bytes.empty()) return;
+    const bool direct = d.buffers[i].mapped != nullptr;
+    if (!direct) {
+        inWords([&] {
+            d.submission.clear();
+            d.recordTransfer([&] { d.transfer.copyBuffer(*d.buffers[i].buffer, *d.downloadCopy.buffer, vk::BufferCopy(0, 0, bytes.size())); });
+            d.submitAndWait();
+        });
+    }
+    std::memcpy(bytes.data(), direct ? d.buffers[i].mapped : d.downloadCopy.mapped, bytes.size());
+}
+
+void VulkanFrame::runSteps(std::span<const std::string_view> names) {
+    Impl& d = *impl_;
+    for (const std::string_view name : names) d.stepOf(name);  // before anything happens
+    inWords([&] {
+        d.submission.clear();
+        if (d.hasNewUploads()) d.recordTransfer([&] { d.copyUploads(); });
+        for (const std::string_view name : names) d.submission.push_back(*d.steps[d.stepOf(name)].commands);
+        d.submitAndWait();
+        for (const std::string_view name : names) d.steps[d.stepOf(name)].hasRun = true;
     });
 }
 
-void VulkanFrame::downloadBytes(const std::string& buffer, std::span<std::byte> bytes) const {
-    const std::uint32_t i = impl_->find(buffer, bytes.size());
-    if (!impl_->frame.buffers[i].readBack) throw std::runtime_error("buffer " + buffer + " is not declared as one that the host reads back");
-    if (bytes.empty()) return;
-    impl_->transferNow([&](const vk::raii::CommandBuffer& commands) {
-        commands.copyBuffer(*impl_->buffers[i].buffer, *impl_->staging.buffer, vk::BufferCopy(0, 0, bytes.size()));
-    });
-    const void* mapped = impl_->staging.memory.mapMemory(0, bytes.size());
-    std::memcpy(bytes.data(), mapped, bytes.size());
-    impl_->staging.memory.unmapMemory();
-}
-
-void VulkanFrame::run(const std::string& step) {
-    const auto found = impl_->steps.find(step);
-    if (found == impl_->steps.end()) throw std::runtime_error("the frame has no step " + step);
-    impl_->submit(found->second.commands);
-}
-
-std::vector<std::pair<std::string, double>> VulkanFrame::times(const std::string& step) const {
+std::vector<std::pair<std::string, double>> VulkanFrame::times(std::string_view step) const {
+    const std::size_t i = impl_->stepOf(step);
+    const Step& made = impl_->steps[i];
     std::vector<std::pair<std::string, double>> times;
-    if (!(impl_->device.timestampPeriod > 0.0f)) return times;
-    for (const FrameStep& description : impl_->frame.steps) {
-        if (description.name != step) continue;
-        const std::size_t count = description.passes.size() + 1;
-        const auto [result, ticks] = impl_->steps.at(step).timestamps.getResults<std::uint64_t>(
-            0, std::uint32_t(count), count * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-        if (result != vk::Result::eSuccess) return times;
-        for (std::size_t p = 0; p + 1 < count; ++p) {
-            times.emplace_back(description.passes[p].name, 1e-6 * impl_->device.timestampPeriod * double(ticks[p + 1] - ticks[p]));
-        }
+    if (!(impl_->device.timestampPeriod > 0.0f) || !made.hasRun) return times;
+    const std::vector<FramePass>& passes = impl_->frame.steps[i].passes;
+    const std::uint32_t count = std::uint32_t(passes.size() + 1);
+    const auto [result, ticks] = inWords([&] {
+        return made.timestamps.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t), vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    });
+    if (result != vk::Result::eSuccess) return times;
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+        const std::uint64_t taken = (ticks[p + 1] - ticks[p]) & impl_->device.timestampMask;
+        times.emplace_back(passes[p].name, 1e-6 * impl_->device.timestampPeriod * double(taken));
     }
     return times;
 }

@@ -6,6 +6,7 @@
 #define CLV_PLAN_FRAME_H
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../data/gpu_bindings.h"
@@ -75,7 +76,7 @@ struct Frame {
         return sum;
     }
     // Index of the buffer of that name; buffers.size() if there is none.
-    std::uint32_t bufferIndex(const std::string& name) const {
+    std::uint32_t bufferIndex(std::string_view name) const {
         std::uint32_t i = 0;
         while (i < buffers.size() && buffers[i].name != name) ++i;
         return i;

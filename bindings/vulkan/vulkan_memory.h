@@ -1,0 +1,33 @@
+// Buffers of a frame: on the device, and where the host reaches them.
+#pragma once
+#include <span>
+
+#include "bindings/vulkan/vulkan_device_impl.h"
+
+namespace clv {
+
+// A buffer with memory of its own.
+struct VulkanBuffer {
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Buffer buffer = nullptr;
+    std::byte* mapped = nullptr;  // where the host reads and writes it, or null
+};
+
+enum class VulkanMemoryUse {
+    device,    // passes alone
+    upload,    // the host writes it, passes read it
+    download,  // passes write it, the host reads it
+};
+
+struct VulkanBufferWish {
+    vk::DeviceSize bytes = 0;
+    vk::BufferUsageFlags usage;
+    VulkanMemoryUse use = VulkanMemoryUse::device;
+    bool onHost = false;  // in the host's memory, for copies to and from the device's
+};
+
+// Takes memory for all the buffers. Those that the host reads or writes come mapped where the device's memory is the host's too.
+// Throws std::runtime_error before any is taken where they need more than is free.
+std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::span<const VulkanBufferWish> wishes);
+
+}  // namespace clv

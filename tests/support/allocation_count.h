@@ -1,0 +1,29 @@
+// How often a test program has taken memory from the heap, by any thread. Replaces operator new: include it in one file of a program.
+#ifndef CLV_TESTS_SUPPORT_ALLOCATION_COUNT_H
+#define CLV_TESTS_SUPPORT_ALLOCATION_COUNT_H
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace clv::test {
+
+inline std::atomic<std::size_t> allocations{0};
+inline std::size_t allocationCount() { return allocations; }
+
+inline void* allocate(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+}  // namespace clv::test
+
+void* operator new(std::size_t size) { return clv::test::allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return clv::test::allocate(size, std::size_t(alignment)); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+#endif
