@@ -20,6 +20,11 @@ std::vector<std::string> sharedHeaders() {
 // What an entry point defines before it includes a header that walks buffers: one line a reader, with the headers of its types.
 std::string readersOf(const std::string& header) {
     if (header == "clv/stages/pick_texel.h") return "float clvReadTexelSum(uint i) { return 0.5; }\n";
+    if (header == "clv/stages/find_slot.h" || header == "clv/stages/gather.h") {
+        return including("clv/data/light_volume.h") + "#ifndef SPLIT_READER\n#define SPLIT_READER\nClvSplit clvReadSplit(uint i) {\n"
+               "ClvSplit split; split.plane = vec4(1.0, 0.0, 0.0, 0.5); split.front = i; split.back = i; split.firstSlot = i; split.slotCount = 1u; return split; }\n#endif\n";
+    }
+    if (header == "clv/stages/read_record.h") return "vec4 clvReadHistory(uint row) { return vec4(0.5, 0.5, 0.5, 0.5); }\n";
     return "";
 }
 

@@ -16,7 +16,9 @@ LightFrameLevel levelOf(int resolution) {
     level.cells = std::uint64_t(resolution) * resolution * resolution;
     level.splits = resolution;
     level.slots = level.cells / 8;
-    level.brickGroups = level.cells / 32;
+    // Some groups of whole cells, some of cells with one, and some with three splits.
+    const uint groups = uint(level.cells / 32);
+    level.groupEnds = {groups / 2, groups / 4 * 3, groups / 4 * 3, groups, groups};
     level.lookupEntries = 800;
     return level;
 }
@@ -29,7 +31,7 @@ LightFrameSettings smallSettings(InjectWay inject = InjectWay::bricks) {
     return settings;
 }
 
-constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::floatAtomics, InjectWay::fixedPoint};
+constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint};
 
 // Names of the passes of a step; empty where the frame has no such step.
 std::vector<std::string> passesOf(const Frame& frame, const std::string& step) {
@@ -66,7 +68,7 @@ TEST(LightFrame, isFreeOfFaultsForEverySetting) {
             }
         }
     }
-    EXPECT_EQ(checked, 3u * 2 * 2 * 2 * 4 * 2 * 2);
+    EXPECT_EQ(checked, 4u * 2 * 2 * 2 * 4 * 2 * 2);
 }
 
 TEST(LightFrame, hasTheStagesInTheirOrder) {
@@ -76,6 +78,23 @@ TEST(LightFrame, hasTheStagesInTheirOrder) {
     EXPECT_EQ(passesOf(frame, "evaluate"), (std::vector<std::string>{"evaluate 0"}));
 }
 
+// A pass for each number of splits that there is, and one list for all of them.
+TEST(LightFrame, gathersWholeCellsApartFromSplitOnes) {
+    const Frame frame = lightFrame(smallSettings(InjectWay::bricks));
+    EXPECT_EQ(passesOf(frame, "light"), (std::vector<std::string>{"rays", "trace", "clear 0", "count 0", "begin 0", "list 0", "inject 0",
+                                                                  "inject 0 split 1", "inject 0 split 3", "merge 0"}));
+}
+
+TEST(LightFrame, beginsWithTheHostsRaysWhereThereAreNoLights) {
+    LightFrameSettings settings = smallSettings(InjectWay::floatAtomics);
+    settings.lights = 0;
+    const Frame frame = lightFrame(settings);
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+    EXPECT_EQ(passesOf(frame, "light"), (std::vector<std::string>{"inject 0", "merge 0"}));
+    EXPECT_TRUE(frame.buffers[frame.bufferIndex("rays")].source == FrameSource::host);
+    for (const char* buffer : {"lights", "texels", "triangles", "bvh boxes"}) EXPECT_FALSE(has(frame, buffer)) << buffer;
+}
+
 TEST(LightFrame, leavesOutWhatNobodyReads) {
     LightFrameSettings settings = smallSettings();
     settings.receivers = 0;
@@ -83,7 +102,7 @@ TEST(LightFrame, leavesOutWhatNobodyReads) {
     EXPECT_TRUE(passesOf(frame, "evaluate").empty());
     for (const char* buffer : {"hits", "receivers", "irradiance 0", "lookup ends 0"}) EXPECT_FALSE(has(frame, buffer)) << buffer;
     const Frame atomics = lightFrame(smallSettings(InjectWay::floatAtomics));
-    for (const char* buffer : {"brick counts 0", "brick ends 0", "brick rays 0", "brick slots 0", "brick groups 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
+    for (const char* buffer : {"brick cursors 0", "brick begins 0", "brick rays 0", "brick slots 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
 }
 
 // Its lights stand still and one volume holds the scene: it has neither the data nor the passes of what moves.
@@ -151,7 +170,7 @@ TEST(LightFrame, isLimitedByWorkGroupsWhereMemoryIsPlenty) {
 TEST(LightFrame, listsHoldTheLongestWayOfARay) {
     ClvVolume volume{};
     volume.resolution = ivec3(6, 4, 2);
-    const ivec3 bricks = frameBricks(volume);
+    const ivec3 bricks = clvBrickCounts(volume);
     EXPECT_EQ(bricks, ivec3(3, 2, 1));
     std::set<std::vector<int>> met;
     const vec3 from(0.1f, 0.05f, 0.5f), to(2.9f, 1.97f, 0.5f);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "clv/math/sampling.h"
+#include "clv/math/sobol.h"
+#include "clv/stages/record.h"
+
 using namespace clv;
 
 namespace {
@@ -37,6 +41,38 @@ TEST(Inject, aParallelRayIsInItsSlabForEverOrNever) {
 TEST(Inject, theFirstBoundaryLiesAhead) {
     EXPECT_EQ(clvWalkFirstBoundary(0.1f, 2), 3.0f);
     EXPECT_EQ(clvWalkFirstBoundary(-0.1f, 2), 2.0f);
+}
+
+// Through the middle of a cell in any direction: no coefficient gets more than the side of the cell, and some get all of it.
+TEST(Inject, noDepositExceedsTheLargest) {
+    const float side = 0.5f;
+    ClvVolume volume{};
+    volume.cellSize = side, volume.resolution = ivec3(1);
+    float largest = 0.0f;
+    for (std::uint32_t i = 0; i < 4096; ++i) {
+        const vec4 u = clvSobol4(i, 5);
+        ClvRay ray{};
+        ray.direction = i < 3 ? vec3(i == 0, i == 1, i == 2) : clvSphereFromSquare(vec2(u.x, u.y));
+        ray.origin = vec3(0.5f * side) - ray.direction, ray.maxDistance = kClvFar, ray.flux = vec3(1.0f);
+        ClvWalk walk = clvWalkBegin(volume, ray);
+        const float length = clvCrossingWeight(kClvInjectTrackLength, clvWalkStep(walk, ray.direction), side);
+        for (const uint storage : {kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) {
+            const ClvRecord record = clvRecordOfRay(storage, 1, ray);
+            for (uint k = 0; k < clvCoefficientCount(storage); ++k) largest = std::max(largest, std::abs(clvRecordValue(record, 1, k)) * length);
+        }
+    }
+    EXPECT_NEAR(largest, clvLargestDeposit(kClvInjectTrackLength, side), 1e-6f);
+}
+
+TEST(Inject, fixedPointHoldsTheLargestSumsAndUsesTheIntegers) {
+    for (const uint rays : {1u, 1000u, 1u << 20}) {
+        const float flux = 3.0f, deposit = 0.25f, scale = clvFixedScale(flux, rays, deposit);
+        const double sum = double(rays) * (double(flux) * deposit * scale + 0.5);
+        EXPECT_LT(sum, 2147483647.0);
+        EXPECT_GT(sum, 0.99 * 2147483647.0);
+        EXPECT_EQ(clvFixedFromFloat(-0.3f / scale, scale), 0);
+        EXPECT_EQ(clvFixedFromFloat(-0.7f / scale, scale), -1);
+    }
 }
 
 }  // namespace

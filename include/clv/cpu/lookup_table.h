@@ -36,6 +36,10 @@ public:
     }
 
     std::size_t size() const { return end_.size(); }
+    // Receiver i reads slots()[k] with weights()[k], k from where the receiver before it ends to ends()[i].
+    std::span<const std::size_t> ends() const { return end_; }
+    std::span<const uint> slots() const { return slot_; }
+    std::span<const float> weights() const { return weight_; }
     std::size_t bytes() const { return end_.size() * sizeof(std::size_t) + slot_.size() * (sizeof(uint) + sizeof(float)); }
 
     // Irradiance at receiver i, W/m^2, see readIrradiance.

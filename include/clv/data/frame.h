@@ -1,6 +1,7 @@
 // What the passes of a frame on the GPU know beside their buffers: two blocks of constants, written by the host before each frame.
 #ifndef CLV_DATA_FRAME_H
 #define CLV_DATA_FRAME_H
+#include "gpu_bindings.h"
 #include "light_volume.h"
 CLV_NAMESPACE_BEGIN
 
@@ -21,15 +22,21 @@ struct ClvFrame {        // 80 bytes; of the whole frame
     uint triangleCount;
 };
 
-struct ClvLevelFrame {   // 80 bytes; of one level of the light volume
+struct ClvLevelFrame {   // 96 bytes; of one level of the light volume
     ClvVolume volume;
     uint slotCount;
     float scale;         // > 0: turns a half's sum of deposits into its estimate, 1 / rays of the half
     float weight;        // (0, 1]: of this frame in the history
     float fixedScale;    // > 0, 1/(W m): units of a deposit where they are added as integers
-    ivec3 brickCounts;   // bricks of 2^3 cells along each axis
-    uint listCapacity;   // rays that the lists of all bricks can hold together
+    uvec4 groupEnds;     // where the groups of eight slots end whose cells have at most 0, 1, 2 and 3 splits on the way to a slot
+    uint groupCount;     // of all groups
+    uint brickCount;     // bricks of 2^3 cells
+    uint pad0;
+    uint pad1;
 };
+
+// Index of a thread's item: work groups lie in rows of CLV_GROUP_ROW, since devices take only 65535 along an axis.
+CLV_FN uint clvItem(uvec3 thread) { return thread.x + thread.y * uint(CLV_GROUP_ROW * CLV_GROUP_SIZE); }
 
 CLV_NAMESPACE_END
 #endif

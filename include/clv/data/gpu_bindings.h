@@ -5,6 +5,8 @@
 
 // Threads of a work group, unless a pass says otherwise.
 #define CLV_GROUP_SIZE 64
+// Work groups in a row of a dispatch; see clvItem.
+#define CLV_GROUP_ROW 32768
 
 // Constants: uniform buffers.
 #define CLV_BIND_FRAME 0           // ClvFrame
@@ -31,23 +33,23 @@
 #define CLV_BIND_HISTORY 15        // float[halves * slotCount * stride]: mean deposits, W m
 
 // Lists of the rays that cross each brick.
-#define CLV_BIND_BRICK_COUNTS 16   // uint[bricks * halves]
-#define CLV_BIND_BRICK_ENDS 17     // uint[bricks * halves]: where a brick's list ends
-#define CLV_BIND_BRICK_RAYS 18     // uint[listCapacity]: ray indices
-#define CLV_BIND_BRICK_SLOTS 19    // uint[groups * 8]: the slots that eight lanes fill, or kClvNoSlot
-#define CLV_BIND_BRICK_GROUPS 20   // uint[groups]: the brick of each eight slots
+#define CLV_BIND_BRICK_CURSORS 16  // uint[bricks * halves + 1]: rays of a brick, then where its next ray goes; last, where the next list goes
+#define CLV_BIND_BRICK_BEGINS 17   // uint[bricks * halves]: where a brick's list begins
+#define CLV_BIND_BRICK_RAYS 18     // uint[]: ray indices
+#define CLV_BIND_BRICK_SLOTS 19    // uint[groups * 8]: the slots of one brick that eight lanes fill, then kClvNoSlot
 
 // Receivers.
-#define CLV_BIND_RECEIVERS 21      // ClvReceiver[receiverCount]
-#define CLV_BIND_LOOKUP_ENDS 22    // uint[receiverCount]: where a receiver's slots end
-#define CLV_BIND_LOOKUP_SLOTS 23   // uint[]
-#define CLV_BIND_LOOKUP_WEIGHTS 24 // float[], 1/m^3
-#define CLV_BIND_IRRADIANCE 25     // vec4[receiverCount], W/m^2
+#define CLV_BIND_RECEIVERS 20      // ClvReceiver[receiverCount]
+#define CLV_BIND_LOOKUP_ENDS 21    // uint[receiverCount]: where a receiver's slots end
+#define CLV_BIND_LOOKUP_SLOTS 22   // uint[]
+#define CLV_BIND_LOOKUP_WEIGHTS 23 // float[], 1/m^3
+#define CLV_BIND_IRRADIANCE 24     // vec4[halves * receiverCount], W/m^2
 
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour
 #define CLV_SPEC_RULE 2            // kClvInject...
 #define CLV_SPEC_STRIDE 3          // floats a record
+#define CLV_SPEC_DEPTH 4           // splits between a cell and its slots, at most
 
 #endif

@@ -13,5 +13,17 @@ struct ClvRay {         // 48 bytes, the same in C++, GLSL and HLSL
     float pad0;
 };
 
+// A ray from the three rows of four numbers that it is in a texel buffer.
+CLV_FN ClvRay clvRayFromRows(vec4 a, vec4 b, vec4 c) {
+    ClvRay ray;
+    ray.origin = vec3(a.x, a.y, a.z);
+    ray.maxDistance = a.w;
+    ray.direction = vec3(b.x, b.y, b.z);
+    ray.dynamicity = b.w;
+    ray.flux = vec3(c.x, c.y, c.z);
+    ray.pad0 = c.w;
+    return ray;
+}
+
 CLV_NAMESPACE_END
 #endif

@@ -4,6 +4,7 @@
 // buffers, fill those that the host owns, and for each step dispatch its passes in order, with their barriers before them.
 #ifndef CLV_PLAN_FRAME_H
 #define CLV_PLAN_FRAME_H
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -89,8 +90,11 @@ inline std::uint32_t frameFormatBytes(FrameFormat format) { return format == Fra
 inline bool frameReads(FrameAccess access) { return access != FrameAccess::write; }
 inline bool frameWrites(FrameAccess access) { return access != FrameAccess::read; }
 
-// Work groups that cover `items` with CLV_GROUP_SIZE threads each.
-inline uvec3 groupsFor(std::uint64_t items) { return uvec3(uint((items + CLV_GROUP_SIZE - 1) / CLV_GROUP_SIZE), 1, 1); }
+// Work groups that cover `items` with CLV_GROUP_SIZE threads each, in rows; see clvItem.
+inline uvec3 groupsFor(std::uint64_t items) {
+    const std::uint64_t groups = (items + CLV_GROUP_SIZE - 1) / CLV_GROUP_SIZE, row = CLV_GROUP_ROW;
+    return uvec3(uint(std::min(groups, row)), uint((groups + row - 1) / row), 1);
+}
 
 // The passes of a step before pass `p` that must be over before it touches `buffer` with `access`: the last one that wrote it, and
 // those that have read it since, if the pass writes. What came earlier is ordered by the barriers of these.

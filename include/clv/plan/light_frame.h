@@ -2,6 +2,7 @@
 #ifndef CLV_PLAN_LIGHT_FRAME_H
 #define CLV_PLAN_LIGHT_FRAME_H
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 #include "../data/ray.h"
 #include "../data/rsm_texel.h"
 #include "../stages/evaluate.h"
-#include "../stages/inject.h"
+#include "../stages/gather.h"
 #include "frame.h"
 #include "frame_check.h"
 
@@ -21,19 +22,23 @@ namespace clv {
 
 // How crossings are added up.
 enum class InjectWay {
-    bricks,        // each slot gathers the rays of its brick of 2^3 cells; no atomics on deposits
-    floatAtomics,  // each ray adds to what it crosses; sums depend on the order to the last bits
-    fixedPoint,    // the same with integers: the same to the last bit from run to run
+    bricks,        // each slot gathers the rays of its brick of 2^3 cells, shared by shuffles; track lengths only
+    bricksPlain,   // the same without subgroups
+    floatAtomics,  // each ray adds to what it crosses
+    fixedPoint,    // the same with integers: the same to the last bit from run to run, where the others depend on the order
 };
+
+inline bool gathers(InjectWay way) { return way == InjectWay::bricks || way == InjectWay::bricksPlain; }
 
 struct LightFrameLevel {
     ClvVolume volume{};
     std::uint64_t cells = 0, splits = 0, slots = 0;
-    std::uint64_t brickGroups = 0;     // eight slots of one brick each; used by InjectWay::bricks alone
+    std::array<uint, kClvMostSplits + 1> groupEnds{};  // see BrickSlots; used by gathers alone
     std::uint64_t lookupEntries = 0;   // slots that all receivers read together
 };
 
 struct LightFrameSettings {
+    // Without lights the frame begins with rays that the host, or the engine's own tracer, has written and cut.
     std::uint64_t lights = 0, rsmSide = 0, triangles = 0, bvhNodes = 0;
     std::uint64_t rays = 0;            // a frame
     std::uint64_t receivers = 0;       // 0: no evaluate step
@@ -49,14 +54,9 @@ inline std::uint32_t frameStride(const LightFrameSettings& settings) {
     return (clvCoefficientCount(settings.storage) * settings.channels + 7u) / 8u * 8u;
 }
 
-// Bricks of 2^3 cells along each axis.
-inline ivec3 frameBricks(const ClvVolume& volume) {
-    return ivec3((volume.resolution.x + 1) / 2, (volume.resolution.y + 1) / 2, (volume.resolution.z + 1) / 2);
-}
-
 // Bricks that a straight line crosses at most.
 inline std::uint64_t frameBricksOfRay(const ClvVolume& volume) {
-    const ivec3 bricks = frameBricks(volume);
+    const ivec3 bricks = clvBrickCounts(volume);
     return std::uint64_t(bricks.x + bricks.y + bricks.z - 2);
 }
 
@@ -70,7 +70,7 @@ inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const
 inline std::uint64_t largestFrameRays(const LightFrameSettings& settings, const FrameLimits& limits = {}) {
     std::uint64_t rays = std::min(std::uint64_t(limits.groups) * CLV_GROUP_SIZE, limits.storageBytes / sizeof(ClvRay));
     for (const LightFrameLevel& level : settings.levels) {
-        if (settings.inject == InjectWay::bricks) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
+        if (gathers(settings.inject)) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
     }
     return rays / settings.halves * settings.halves;
 }
@@ -82,30 +82,12 @@ public:
     explicit LightFrameBuilder(const LightFrameSettings& settings) : s_(settings) {}
 
     Frame build() {
-        const std::uint64_t texels = s_.lights * s_.rsmSide * s_.rsmSide, rows = s_.lights * s_.rsmSide;
         const auto frame = add("frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host);
-        const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
-        const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
-        const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
-        const auto triangles = add("triangles", CLV_BIND_TRIANGLES, s_.triangles * kClvTriangleRows * sizeof(vec4), FrameSource::host);
-        const auto surfaces = add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host);
-        const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), FrameSource::passes);
-        const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
-        const auto rays = add("rays", CLV_BIND_RAYS, s_.rays * sizeof(ClvRay), FrameSource::passes, true);
-        const std::vector<FrameUse> tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
-
-        begin("rsm");
-        pass("rsm", "rsm", groupsFor(texels), with({uniform(frame), read(lights), texel(surfaces), write(texelBuffer)}, tree));
-        pass("texel rows", "texel_rows", uvec3(uint(rows), 1, 1), {uniform(frame), read(texelBuffer), write(sums)});
-        pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
-
-        begin("light");
-        pass("rays", "rays", groupsFor(s_.rays), {uniform(frame), read(texelBuffer), read(sums), write(rays)});
-        if (s_.keepHits) {
-            const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
-            pass("trace", "trace_hits", groupsFor(s_.rays), with({uniform(frame), readWrite(rays), texel(surfaces), write(hits)}, tree));
+        const auto rays = add("rays", CLV_BIND_RAYS, s_.rays * sizeof(ClvRay), s_.lights > 0 ? FrameSource::passes : FrameSource::host, true);
+        if (s_.lights > 0) {
+            addRays(frame, rays);
         } else {
-            pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
+            begin("light");
         }
         struct Read {
             std::string name;
@@ -119,10 +101,10 @@ public:
             const std::uint64_t record = frameStride(s_) * sizeof(float), records = s_.halves * level.slots;
             const auto constants = add("level" + name, CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host);
             const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, records * record,
-                                      s_.inject == InjectWay::bricks ? FrameSource::passes : FrameSource::zero, true);
+                                      gathers(s_.inject) ? FrameSource::passes : FrameSource::zero, true);
             const auto history = add("history" + name, CLV_BIND_HISTORY, records * record, FrameSource::zero, true);
             addInject(level, name, frame, constants, rays, deposits);
-            pass("merge" + name, s_.inject == InjectWay::fixedPoint ? "merge_fixed" : "merge", groupsFor(records * frameStride(s_)),
+            pass("merge" + name, s_.inject == InjectWay::fixedPoint ? "merge_fixed" : "merge", groupsFor(records * frameStride(s_) / 4),
                  {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
             reads.push_back({name, constants, history, level.lookupEntries});
         }
@@ -156,32 +138,64 @@ private:
         frame_.steps.back().passes.push_back({name, shader, std::move(constants), std::move(uses), groups, {}});
     }
 
+    // The steps that end with this frame's rays, cut.
+    void addRays(std::uint32_t frame, std::uint32_t rays) {
+        const std::uint64_t texels = s_.lights * s_.rsmSide * s_.rsmSide, rows = s_.lights * s_.rsmSide;
+        const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
+        const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
+        const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
+        const auto triangles = add("triangles", CLV_BIND_TRIANGLES, s_.triangles * kClvTriangleRows * sizeof(vec4), FrameSource::host);
+        const auto surfaces = add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host);
+        const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), FrameSource::passes);
+        const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
+        const std::vector<FrameUse> tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+
+        begin("rsm");
+        pass("rsm", "rsm", groupsFor(texels), with({uniform(frame), read(lights), texel(surfaces), write(texelBuffer)}, tree));
+        pass("texel rows", "texel_rows", uvec3(uint(rows), 1, 1), {uniform(frame), read(texelBuffer), write(sums)});
+        pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
+
+        begin("light");
+        pass("rays", "rays", groupsFor(s_.rays), {uniform(frame), read(texelBuffer), read(sums), write(rays)});
+        if (s_.keepHits) {
+            const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
+            pass("trace", "trace_hits", groupsFor(s_.rays), with({uniform(frame), readWrite(rays), texel(surfaces), write(hits)}, tree));
+        } else {
+            pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
+        }
+    }
+
     void addInject(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t deposits) {
         Constants spec = recordConstants();
-        spec.push_back({CLV_SPEC_RULE, s_.rule});
         const auto table = add("table" + name, CLV_BIND_TABLE, level.cells * sizeof(uint), FrameSource::host);
         // A buffer may not be empty, a level without splits is welcome.
         const auto splits = add("splits" + name, CLV_BIND_SPLITS, std::max<std::uint64_t>(level.splits, 1) * sizeof(ClvSplit), FrameSource::host);
-        if (s_.inject != InjectWay::bricks) {
+        if (!gathers(s_.inject)) {
+            spec.push_back({CLV_SPEC_RULE, s_.rule});
             pass("inject" + name, s_.inject == InjectWay::fixedPoint ? "inject_fixed" : "inject_float", groupsFor(s_.rays),
                  {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
             return;
         }
-        const ivec3 bricks = frameBricks(level.volume);
-        const std::uint64_t lists = s_.halves * std::uint64_t(bricks.x) * bricks.y * bricks.z;
+        const ivec3 bricks = clvBrickCounts(level.volume);
+        const std::uint64_t lists = s_.halves * std::uint64_t(bricks.x) * bricks.y * bricks.z, groups = level.groupEnds.back();
         const auto slots = add("slots" + name, CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
-        const auto counts = add("brick counts" + name, CLV_BIND_BRICK_COUNTS, lists * sizeof(uint), FrameSource::passes);
-        const auto ends = add("brick ends" + name, CLV_BIND_BRICK_ENDS, lists * sizeof(uint), FrameSource::passes);
+        const auto cursors = add("brick cursors" + name, CLV_BIND_BRICK_CURSORS, (lists + 1) * sizeof(uint), FrameSource::passes);
+        const auto begins = add("brick begins" + name, CLV_BIND_BRICK_BEGINS, lists * sizeof(uint), FrameSource::passes);
         const auto list = add("brick rays" + name, CLV_BIND_BRICK_RAYS, frameListCapacity(s_, level.volume) * sizeof(uint), FrameSource::passes);
-        const auto brickSlots = add("brick slots" + name, CLV_BIND_BRICK_SLOTS, level.brickGroups * 8 * sizeof(uint), FrameSource::host);
-        const auto groups = add("brick groups" + name, CLV_BIND_BRICK_GROUPS, level.brickGroups * sizeof(uint), FrameSource::host);
-        pass("clear counts" + name, "", uvec3(1), {write(counts)});
-        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(counts)});
-        // Ends where each list ends; the counts become the places where the next ray of each list goes.
-        pass("scan" + name, "brick_scan", uvec3(1), {uniform(frame), uniform(constants), readWrite(counts), write(ends)});
-        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(counts), write(list)});
-        pass("inject" + name, "inject_bricks", groupsFor(s_.halves * level.brickGroups * 8),
-             {uniform(frame), uniform(constants), read(rays), read(ends), read(list), read(brickSlots), read(groups), read(slots), read(table), read(splits), write(deposits)}, spec);
+        const auto brickSlots = add("brick slots" + name, CLV_BIND_BRICK_SLOTS, groups * kClvBrickLanes * sizeof(uint), FrameSource::host);
+        pass("clear" + name, "", uvec3(1), {write(cursors)});
+        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(cursors)});
+        pass("begin" + name, "brick_begin", groupsFor(lists), {uniform(frame), uniform(constants), readWrite(cursors), write(begins)});
+        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(cursors), write(list)});
+        // A pass for each number of splits, so that slots that are whole cells carry no planes.
+        for (uint depth = 0, first = 0; depth <= uint(kClvMostSplits); first = level.groupEnds[depth++]) {
+            if (level.groupEnds[depth] == first) continue;
+            Constants deep = spec;
+            deep.push_back({CLV_SPEC_DEPTH, depth});
+            pass("inject" + name + (depth == 0 ? "" : " split " + std::to_string(depth)), s_.inject == InjectWay::bricks ? "inject_bricks" : "inject_bricks_plain",
+                 groupsFor(s_.halves * (level.groupEnds[depth] - first) * kClvBrickLanes),
+                 {uniform(frame), uniform(constants), texel(rays), read(cursors), read(begins), read(list), read(brickSlots), read(slots), read(table), read(splits), write(deposits)}, deep);
+        }
     }
 
     Constants recordConstants() const {

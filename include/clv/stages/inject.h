@@ -117,5 +117,20 @@ CLV_FN float clvCrossingWeight(uint rule, ClvCrossing crossing, float cellSize) 
     return (crossing.tEnd - crossing.tBegin) * cellSize;
 }
 
+// Deposits as integers: the nearest to value * scale, which must lie within the integers; see clvFixedScale.
+CLV_FN int clvFixedFromFloat(float value, float scale) { return int(floor(value * scale + 0.5f)); }
+
+// The most by which a ray of unit flux adds to any coefficient of a slot: along a cell's side the product of direction and length is
+// at most that side, and no other function of a storage gets above it.
+CLV_FN float clvLargestDeposit(uint rule, float cellSize) { return rule == kClvInjectThesis ? 1.0f : cellSize; }
+
+// The largest scale, 1/(W m), with which no sum of the deposits of `rays` rays can overflow, whatever they do: each adds at most
+// largestFlux (W, of any channel of any ray) times largestDeposit, and half a unit of rounding.
+CLV_FN float clvFixedScale(float largestFlux, uint rays, float largestDeposit) {
+    // The largest float below 2^31; a thousandth is left for lengths that were rounded up.
+    float room = (2147483520.0f - 0.5f * float(rays)) * 0.999f;
+    return room / max(largestFlux * largestDeposit * float(rays), 1.0e-30f);
+}
+
 CLV_NAMESPACE_END
 #endif

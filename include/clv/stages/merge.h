@@ -51,6 +51,9 @@ CLV_FN float clvMergeValue(float history, float current, float weight) {
     return weight < 0.5f ? history + weight * step : current - (1.0f - weight) * step;
 }
 
+// Four numbers of a history that is a plain mean: they move towards this frame's estimate by `weight`, (0, 1].
+CLV_FN vec4 clvMergeMean(vec4 history, vec4 current, float weight) { return history + (current - history) * weight; }
+
 // Dynamicity of a cell: the largest wins at once, and wears off slowly.
 CLV_FN float clvMergeDynamicity(CLV_IN(ClvMergeSettings) settings, float history, float current) {
     float kept = history * (1.0f - clvDecayed(settings.timestep, 1.0f / settings.dynamicityTime));

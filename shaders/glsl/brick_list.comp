@@ -1,0 +1,26 @@
+// Writes each ray into the lists of the bricks that it crosses.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "clv/data/frame.h"
+#include "clv/stages/bricks.h"
+#include "clv/stages/inject.h"
+
+layout(local_size_x = CLV_GROUP_SIZE) in;
+layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
+layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
+layout(std430, binding = CLV_BIND_RAYS) readonly buffer Rays { ClvRay rays[]; };
+layout(std430, binding = CLV_BIND_BRICK_CURSORS) buffer Cursors { uint cursors[]; };
+layout(std430, binding = CLV_BIND_BRICK_RAYS) writeonly buffer BrickRays { uint brickRays[]; };
+
+void main() {
+    uint i = clvItem(gl_GlobalInvocationID);
+    if (i >= frame.rayCount) return;
+    uint first = i / (frame.rayCount / frame.halves) * level.brickCount;
+    ClvVolume bricks = clvBrickVolume(level.volume);
+    ClvRay ray = rays[i];
+    ClvWalk walk = clvWalkBegin(bricks, ray);
+    while (walk.running == 1) {
+        ClvCrossing crossing = clvWalkStep(walk, ray.direction);
+        if (crossing.tEnd > crossing.tBegin) brickRays[atomicAdd(cursors[first + clvCellIndex(bricks, crossing.cell)], 1u)] = i;
+    }
+}

@@ -1,0 +1,23 @@
+// How many rays cross each brick.
+#include "clv/data/frame.h"
+#include "clv/stages/bricks.h"
+#include "clv/stages/inject.h"
+
+[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
+[[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
+[[vk::binding(CLV_BIND_RAYS)]] StructuredBuffer<ClvRay> rays;
+[[vk::binding(CLV_BIND_BRICK_CURSORS)]] RWStructuredBuffer<uint> cursors;
+
+[numthreads(CLV_GROUP_SIZE, 1, 1)]
+void main(uint3 thread : SV_DispatchThreadID) {
+    uint i = clvItem(thread);
+    if (i >= frame.rayCount) return;
+    uint first = i / (frame.rayCount / frame.halves) * level.brickCount;
+    ClvVolume bricks = clvBrickVolume(level.volume);
+    ClvRay ray = rays[i];
+    ClvWalk walk = clvWalkBegin(bricks, ray);
+    while (walk.running == 1) {
+        ClvCrossing crossing = clvWalkStep(walk, ray.direction);
+        if (crossing.tEnd > crossing.tBegin) InterlockedAdd(cursors[first + clvCellIndex(bricks, crossing.cell)], 1u);
+    }
+}
