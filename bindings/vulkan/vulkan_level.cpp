@@ -1,6 +1,11 @@
 #include "bindings/vulkan/vulkan_level.h"
 
 namespace clv {
+namespace {
+
+std::string nameOf(std::size_t index) { return std::string(" ").append(std::to_string(index)); }
+
+}  // namespace
 
 LightFrameLevel describeLevel(const Level& level, const BrickSlots& bricks) {
     LightFrameLevel description;
@@ -28,12 +33,20 @@ ClvLevelFrame levelConstants(const Level& level, const BrickSlots& bricks, const
 }
 
 void uploadLevel(VulkanFrame& frame, const LightFrameSettings& settings, std::size_t index, const Level& level, const BrickSlots& bricks) {
-    const std::string name = std::string(" ").append(std::to_string(index));
+    const std::string name = nameOf(index);
     frame.upload("table" + name, std::span(level.table));
     frame.upload("splits" + name, std::span(level.splits));
     if (!gathers(settings.inject)) return;
     frame.upload("slots" + name, std::span(level.slots));
     frame.upload("brick slots" + name, std::span(bricks.slots));
+}
+
+void uploadLookup(VulkanFrame& frame, std::size_t index, const LookupTable& table) {
+    const std::string name = nameOf(index);
+    const std::vector<uint> ends(table.ends().begin(), table.ends().end());
+    frame.upload("lookup ends" + name, std::span(ends));
+    frame.upload("lookup slots" + name, table.slots());
+    frame.upload("lookup weights" + name, table.weights());
 }
 
 }  // namespace clv

@@ -2,6 +2,7 @@
 #pragma once
 #include "bindings/vulkan/vulkan_frame.h"
 #include "clv/cpu/brick_slots.h"
+#include "clv/cpu/lookup_table.h"
 #include "clv/plan/light_frame.h"
 
 namespace clv {
@@ -15,5 +16,8 @@ ClvLevelFrame levelConstants(const Level& level, const BrickSlots& bricks, const
 
 // Uploads the tables of level number `index` of a frame that lightFrame made with these settings.
 void uploadLevel(VulkanFrame& frame, const LightFrameSettings& settings, std::size_t index, const Level& level, const BrickSlots& bricks);
+
+// Uploads what still receivers read of level number `index`; settings.levels[index].lookupEntries is the number of its slots().
+void uploadLookup(VulkanFrame& frame, std::size_t index, const LookupTable& table);
 
 }  // namespace clv
