@@ -2,8 +2,11 @@
 #include <memory>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "bindings/cli/command_line.h"
 #include "bindings/cli/options.h"
+#include "bindings/vulkan/vulkan_device.h"
 
 namespace clv {
 namespace {
@@ -20,6 +23,36 @@ Report cpuFeatures() {
     return features;
 }
 
+std::string injectName(InjectWay way) {
+    switch (way) {
+        case InjectWay::bricks: return "bricks";
+        case InjectWay::bricksPlain: return "bricks without subgroups";
+        case InjectWay::floatAtomics: return "float atomics";
+        default: return "fixed point";
+    }
+}
+
+// A row a device: what it is, and the path that a frame takes on it.
+void addVulkanDevices(Report& report) {
+    Report rows = Report::array();
+    try {
+        for (const VulkanDeviceInfo& device : vulkanDevices()) {
+            rows.push_back({{"index", rows.size()},
+                            {"name", device.name},
+                            {"type", device.type},
+                            {"driver", device.driver},
+                            {"vulkan", fmt::format("{}.{}.{}", device.apiVersion >> 22 & 0x7fu, device.apiVersion >> 12 & 0x3ffu, device.apiVersion & 0xfffu)},
+                            {"memory_mib", device.memory >> 20},
+                            {"subgroup_size", device.features.subgroupSize},
+                            {"inject", injectName(defaultInject(device.features))},
+                            {"trace", "bvh in compute"}});
+        }
+    } catch (const std::runtime_error& error) {
+        report["vulkan_missing"] = error.what();
+    }
+    report["vulkan_devices"] = std::move(rows);
+}
+
 }  // namespace
 
 void addInfoCommand(CLI::App& app) {
@@ -32,6 +65,7 @@ void addInfoCommand(CLI::App& app) {
         report["hardware_threads"] = std::thread::hardware_concurrency();
         report["cpu_features"] = cpuFeatures();
         report["backends"] = {"cpu"};
+        addVulkanDevices(report);
         printReport(report, *options);
     });
 }

@@ -146,10 +146,11 @@ std::vector<VulkanDeviceInfo> vulkanDevices(const std::string& loader) {
     });
 }
 
-InjectWay defaultInject(const VulkanFeatures& features) {
-    // Eight lanes of a subgroup fill the eight cells of a brick.
-    if (features.subgroupSize > 0 && features.subgroupSize % 8 == 0) return InjectWay::bricks;
-    return features.floatAtomics ? InjectWay::floatAtomics : InjectWay::fixedPoint;
+InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule) {
+    // Gathers know track lengths alone; what the rays of the thesis' rule add is scattered.
+    if (rule != kClvInjectTrackLength) return features.floatAtomics ? InjectWay::floatAtomics : InjectWay::fixedPoint;
+    const bool wholeBricks = features.subgroupSize > 0 && features.subgroupSize % kClvBrickLanes == 0;
+    return wholeBricks ? InjectWay::bricks : InjectWay::bricksPlain;
 }
 
 VulkanDevice::Impl::Impl(const VulkanOptions& options)

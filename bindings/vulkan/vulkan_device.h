@@ -38,8 +38,8 @@ struct VulkanOptions {
 // Throws std::runtime_error with one line that says why there is none.
 std::vector<VulkanDeviceInfo> vulkanDevices(const std::string& loader = {});
 
-// How a device with these features adds up crossings, unless told otherwise.
-InjectWay defaultInject(const VulkanFeatures& features);
+// How a device with these features adds up crossings by `rule` (kClvInject...), unless told otherwise.
+InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule = kClvInjectTrackLength);
 
 class VulkanDevice {
 public:

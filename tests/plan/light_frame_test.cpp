@@ -158,12 +158,30 @@ TEST(LightFrame, holdsTheLargestNumberOfRaysAndNoMore) {
     }
 }
 
-TEST(LightFrame, isLimitedByWorkGroupsWhereMemoryIsPlenty) {
+TEST(LightFrame, isLimitedByMemoryAndTypedViewsAlone) {
+    const FrameLimits large{.storageBytes = std::uint64_t(1) << 32};
+    EXPECT_EQ(largestFrameRays(smallSettings(InjectWay::floatAtomics), large), large.storageBytes / sizeof(ClvRay));
+    // A ray is three elements where it is read through a typed view.
+    const FrameLimits fewElements{.texelElements = 30000};
+    LightFrameSettings settings = smallSettings(InjectWay::bricks);
+    EXPECT_EQ(largestFrameRays(settings, fewElements), 10000u);
+    settings.rays = 10000;
+    EXPECT_EQ(checkFrame(lightFrame(settings), fewElements), std::vector<std::string>());
+    ++settings.rays;
+    EXPECT_NE(checkFrame(lightFrame(settings), fewElements), std::vector<std::string>());
+}
+
+TEST(LightFrame, coversMoreRaysThanARowOfWorkGroups) {
     LightFrameSettings settings = smallSettings(InjectWay::floatAtomics);
     const FrameLimits limits{.storageBytes = std::uint64_t(1) << 32};
-    EXPECT_EQ(largestFrameRays(settings, limits), 65535u * CLV_GROUP_SIZE);
     settings.rays = largestFrameRays(settings, limits);
-    EXPECT_EQ(checkFrame(lightFrame(settings), limits), std::vector<std::string>());
+    const Frame frame = lightFrame(settings);
+    EXPECT_EQ(checkFrame(frame, limits), std::vector<std::string>());
+    for (const FramePass& pass : frame.steps[1].passes) {
+        if (pass.name != "rays" && pass.name != "inject 0") continue;
+        EXPECT_GT(pass.groups.y, 1u);
+        EXPECT_GE(std::uint64_t(pass.groups.x) * pass.groups.y * CLV_GROUP_SIZE, settings.rays);
+    }
 }
 
 // A straight line through the middle of a volume's bricks meets as many as the lists have room for.

@@ -113,9 +113,10 @@ TEST(VulkanFeatures, thatADeviceLacksAreMissedInOneLine) {
 TEST(VulkanFeatures, haveAFallback) {
     EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 32}), InjectWay::bricks);
     EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 8}), InjectWay::bricks);
-    EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 4}), InjectWay::floatAtomics);
-    EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 0}), InjectWay::floatAtomics);
-    EXPECT_EQ(defaultInject({.floatAtomics = false, .subgroupSize = 0}), InjectWay::fixedPoint);
+    EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 4}), InjectWay::bricksPlain);
+    EXPECT_EQ(defaultInject({.floatAtomics = false, .subgroupSize = 0}), InjectWay::bricksPlain);
+    EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 32}, kClvInjectThesis), InjectWay::floatAtomics);
+    EXPECT_EQ(defaultInject({.floatAtomics = false, .subgroupSize = 32}, kClvInjectThesis), InjectWay::fixedPoint);
 }
 
 TEST(VulkanDevice, takesItsWarningsFromTheValidationLayer) {

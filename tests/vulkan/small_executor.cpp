@@ -1,5 +1,6 @@
 #include "vulkan/small_executor.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -188,12 +189,12 @@ void SmallExecutor::run(const std::string& name) {
 
 void SmallExecutor::uploadBytes(const std::string& buffer, std::span<const std::byte> bytes) {
     if (bytes.size() > frame_.buffers.at(frame_.bufferIndex(buffer)).bytes) throw std::runtime_error(buffer + " is smaller");
-    std::memcpy(buffers_.at(frame_.bufferIndex(buffer)).mapped, bytes.data(), bytes.size());
+    std::copy(bytes.begin(), bytes.end(), buffers_.at(frame_.bufferIndex(buffer)).mapped);
 }
 
 void SmallExecutor::downloadBytes(const std::string& buffer, std::span<std::byte> bytes) const {
     if (bytes.size() > frame_.buffers.at(frame_.bufferIndex(buffer)).bytes) throw std::runtime_error(buffer + " is smaller");
-    std::memcpy(bytes.data(), buffers_.at(frame_.bufferIndex(buffer)).mapped, bytes.size());
+    std::copy_n(buffers_.at(frame_.bufferIndex(buffer)).mapped, bytes.size(), bytes.begin());
 }
 
 }  // namespace clv::test

@@ -68,9 +68,10 @@ inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const
 // The most rays that a frame with otherwise these settings can have on a device with these limits; a host that wants more runs the
 // light step in rounds.
 inline std::uint64_t largestFrameRays(const LightFrameSettings& settings, const FrameLimits& limits = {}) {
-    std::uint64_t rays = std::min(std::uint64_t(limits.groups) * CLV_GROUP_SIZE, limits.storageBytes / sizeof(ClvRay));
-    for (const LightFrameLevel& level : settings.levels) {
-        if (gathers(settings.inject)) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
+    std::uint64_t rays = limits.storageBytes / sizeof(ClvRay);
+    if (gathers(settings.inject)) {
+        rays = std::min<std::uint64_t>(rays, limits.texelElements * sizeof(vec4) / sizeof(ClvRay));
+        for (const LightFrameLevel& level : settings.levels) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
     }
     return rays / settings.halves * settings.halves;
 }
