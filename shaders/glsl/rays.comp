@@ -16,10 +16,10 @@ float clvReadTexelSum(uint i) { return texelSums[i]; }
 #include "clv/stages/pick_texel.h"
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = clvItem(gl_GlobalInvocationID);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    vec4 u = clvSobol4(frame.firstIndex + i % perHalf, clvHashCombine(frame.seed, i / perHalf));
+    vec4 u = clvSobol4(frame.firstIndex + clvNeighbourIndex(i % perHalf, perHalf), clvHashCombine(frame.seed, i / perHalf));
     ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.lightCount * frame.rsmSide, vec2(u.x, u.y));
     ClvRay ray = clvDeadRay();
     if (pick.probability > 0.0) ray = clvRayFromTexel(texels[pick.texel], vec2(u.z, u.w), 1.0 / pick.probability, frame.originOffset);

@@ -14,10 +14,10 @@ float clvReadTexelSum(uint i) { return texelSums[i]; }
 
 [numthreads(CLV_GROUP_SIZE, 1, 1)]
 void main(uint3 thread : SV_DispatchThreadID) {
-    uint i = thread.x;
+    uint i = clvItem(thread);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    float4 u = clvSobol4(frame.firstIndex + i % perHalf, clvHashCombine(frame.seed, i / perHalf));
+    float4 u = clvSobol4(frame.firstIndex + clvNeighbourIndex(i % perHalf, perHalf), clvHashCombine(frame.seed, i / perHalf));
     ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.lightCount * frame.rsmSide, float2(u.x, u.y));
     ClvRay ray = clvDeadRay();
     if (pick.probability > 0.0) ray = clvRayFromTexel(texels[pick.texel], float2(u.z, u.w), 1.0 / pick.probability, frame.originOffset);

@@ -19,6 +19,16 @@ std::vector<std::string> sharedHeaders() {
 
 // What an entry point defines before it includes a header that walks buffers: one line a reader, with the headers of its types.
 std::string readersOf(const std::string& header) {
+    if (header == "clv/stages/surface.h") return "vec4 clvReadSurface(uint row) { return vec4(0.0, 1.0, 0.0, 0.0); }\n";
+    if (header == "clv/stages/texture.h") {
+        return "uvec4 clvReadTextureRow(uint row) { return uvec4(row, row, row, row); }\n"
+               "vec4 clvReadTextureTexel(uint i) { return vec4(1.0, 1.0, 1.0, 1.0); }\n";
+    }
+    if (header == "clv/stages/trace_bvh.h") {
+        return "vec4 clvReadBvhBoxes(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n"
+               "uvec4 clvReadBvhChildren(uint node) { return uvec4(node, node, node, node); }\n"
+               "vec4 clvReadTriangle(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n";
+    }
     if (header == "clv/stages/pick_texel.h") return "float clvReadTexelSum(uint i) { return 0.5; }\n";
     if (header == "clv/stages/find_slot.h" || header == "clv/stages/gather.h") {
         return including("clv/data/light_volume.h") + "#ifndef SPLIT_READER\n#define SPLIT_READER\nClvSplit clvReadSplit(uint i) {\n"

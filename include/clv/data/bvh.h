@@ -13,16 +13,20 @@ CLV_CONST uint kClvBvhLeafBit = 0x80000000u;
 CLV_CONST uint kClvBvhCountBits = 4u;          // of a leaf: the lowest bits are its number of triangles, those above it the first one
 CLV_CONST uint kClvBvhMostTriangles = 15u;     // a leaf
 CLV_CONST uint kClvBvhStack = 64u;             // entries that a walk may need; trees are built no deeper
+CLV_CONST uint kClvNoChild = 0x80000000u;      // a leaf of no triangles
 
 // Rows of a triangle: first corner, the edges from it to the second and the third; in the w of the first two rows the lower and the
 // upper 16 bits of its index in the scene, as numbers, since texel buffers may not keep the bits of every float.
 CLV_CONST uint kClvTriangleRows = 3u;
-// Rows of a scene triangle's surface: unit normal by the right-hand rule, then albedo.
-CLV_CONST uint kClvSurfaceRows = 2u;
 
 CLV_FN uint clvBvhLeaf(uint firstTriangle, uint count) { return kClvBvhLeafBit | (firstTriangle << kClvBvhCountBits) | count; }
 CLV_FN uint clvBvhLeafFirst(uint child) { return (child & ~kClvBvhLeafBit) >> kClvBvhCountBits; }
 CLV_FN uint clvBvhLeafCount(uint child) { return child & ((1u << kClvBvhCountBits) - 1u); }
+// A leaf of one triangle or more without its first; kClvNoChild when that was all.
+CLV_FN uint clvBvhLeafRest(uint child) {
+    uint count = clvBvhLeafCount(child);
+    return count > 1u ? clvBvhLeaf(clvBvhLeafFirst(child) + 1u, count - 1u) : kClvNoChild;
+}
 
 CLV_NAMESPACE_END
 #endif

@@ -45,6 +45,10 @@
 #define CLV_BIND_LOOKUP_WEIGHTS 23 // float[], 1/m^3
 #define CLV_BIND_IRRADIANCE 24     // vec4[halves * receiverCount], W/m^2
 
+// Textures of scenes that have any.
+#define CLV_BIND_TEXTURE_ROWS 25   // texel buffer, RGBA32UI: see data/surface.h
+#define CLV_BIND_TEXTURE_TEXELS 26 // texel buffer, RGBA32F
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

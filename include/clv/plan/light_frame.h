@@ -13,6 +13,7 @@
 #include "../data/light.h"
 #include "../data/ray.h"
 #include "../data/rsm_texel.h"
+#include "../data/surface.h"
 #include "../stages/evaluate.h"
 #include "../stages/gather.h"
 #include "frame.h"
@@ -40,6 +41,7 @@ struct LightFrameLevel {
 struct LightFrameSettings {
     // Without lights the frame begins with rays that the host, or the engine's own tracer, has written and cut.
     std::uint64_t lights = 0, rsmSide = 0, triangles = 0, bvhNodes = 0;
+    std::uint64_t textureTexels = 0;   // of all textures together; 0: a scene without any
     std::uint64_t rays = 0;            // a frame
     std::uint64_t receivers = 0;       // 0: no evaluate step
     std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
@@ -149,18 +151,25 @@ private:
         const auto surfaces = add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host);
         const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), FrameSource::passes);
         const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
-        const std::vector<FrameUse> tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+        const Uses tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+        Uses scene = with(tree, {texel(surfaces)});
+        std::string textured;
+        if (s_.textureTexels > 0) {
+            textured = "_textured";
+            scene.push_back(texel(add("texture rows", CLV_BIND_TEXTURE_ROWS, s_.triangles * kClvTextureRows * sizeof(uvec4), FrameSource::host), FrameFormat::rgba32Uint));
+            scene.push_back(texel(add("texture texels", CLV_BIND_TEXTURE_TEXELS, s_.textureTexels * sizeof(vec4), FrameSource::host)));
+        }
 
         begin("rsm");
-        pass("rsm", "rsm", groupsFor(texels), with({uniform(frame), read(lights), texel(surfaces), write(texelBuffer)}, tree));
-        pass("texel rows", "texel_rows", uvec3(uint(rows), 1, 1), {uniform(frame), read(texelBuffer), write(sums)});
+        pass("rsm", "rsm" + textured, groupsFor(texels), with({uniform(frame), read(lights), write(texelBuffer)}, scene));
+        pass("texel rows", "texel_rows", groupsFor(rows * CLV_GROUP_SIZE), {uniform(frame), read(texelBuffer), write(sums)});
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
         begin("light");
         pass("rays", "rays", groupsFor(s_.rays), {uniform(frame), read(texelBuffer), read(sums), write(rays)});
         if (s_.keepHits) {
             const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
-            pass("trace", "trace_hits", groupsFor(s_.rays), with({uniform(frame), readWrite(rays), texel(surfaces), write(hits)}, tree));
+            pass("trace", "trace_hits" + textured, groupsFor(s_.rays), with({uniform(frame), readWrite(rays), write(hits)}, scene));
         } else {
             pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
         }

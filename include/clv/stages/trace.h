@@ -19,7 +19,7 @@ CLV_FN ClvHit clvNoHit() {
     hit.normal = vec3(0.0f, 0.0f, 0.0f);
     hit.distance = kClvFar;
     hit.albedo = vec3(0.0f, 0.0f, 0.0f);
-    hit.primitive = 0xffffffffu;
+    hit.primitive = kClvNoPrimitive;
     return hit;
 }
 

@@ -1,0 +1,7 @@
+// The reflective shadow maps of all lights, in a scene without textures.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "clv/data/frame.h"
+#include "clv/stages/rsm.h"
+#include "scene.glsl"
+#include "rsm.glsl"

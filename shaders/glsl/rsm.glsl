@@ -1,0 +1,16 @@
+// Body of rsm and rsm_textured: a texel of each light's reflective shadow map.
+layout(local_size_x = CLV_GROUP_SIZE) in;
+layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
+layout(std430, binding = CLV_BIND_LIGHTS) readonly buffer Lights { ClvLight lights[]; };
+layout(std430, binding = CLV_BIND_TEXELS) writeonly buffer Texels { ClvRsmTexel texels[]; };
+
+void main() {
+    uint i = clvItem(gl_GlobalInvocationID);
+    uint perLight = frame.rsmSide * frame.rsmSide;
+    if (i >= frame.lightCount * perLight) return;
+    uint light = i / perLight;
+    uvec2 texel = uvec2(i % frame.rsmSide, i % perLight / frame.rsmSide);
+    vec2 u = clvRsmSamplePoint(texel, frame.rsmSide, frame.rsmPass, clvHashCombine(frame.rsmSeed, light));
+    ClvRay ray = clvLightRay(lights[light], u, frame.boundsLo, frame.boundsHi);
+    texels[i] = clvRsmTexelFromHit(ray, sceneHit(ray), 1.0 / float(perLight));
+}

@@ -1,0 +1,7 @@
+// Cuts rays and says what they met, in a scene with textures.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "clv/data/frame.h"
+#include "clv/stages/trace.h"
+#include "textured_scene.glsl"
+#include "trace_hits.glsl"

@@ -1,0 +1,5 @@
+// The reflective shadow maps of all lights, in a scene without textures.
+#include "clv/data/frame.h"
+#include "clv/stages/rsm.h"
+#include "scene.hlsli"
+#include "rsm.hlsli"

@@ -1,0 +1,16 @@
+// Body of rsm and rsm_textured: a texel of each light's reflective shadow map.
+[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
+[[vk::binding(CLV_BIND_LIGHTS)]] StructuredBuffer<ClvLight> lights;
+[[vk::binding(CLV_BIND_TEXELS)]] RWStructuredBuffer<ClvRsmTexel> texels;
+
+[numthreads(CLV_GROUP_SIZE, 1, 1)]
+void main(uint3 thread : SV_DispatchThreadID) {
+    uint i = clvItem(thread);
+    uint perLight = frame.rsmSide * frame.rsmSide;
+    if (i >= frame.lightCount * perLight) return;
+    uint light = i / perLight;
+    uint2 texel = uint2(i % frame.rsmSide, i % perLight / frame.rsmSide);
+    float2 u = clvRsmSamplePoint(texel, frame.rsmSide, frame.rsmPass, clvHashCombine(frame.rsmSeed, light));
+    ClvRay ray = clvLightRay(lights[light], u, frame.boundsLo, frame.boundsHi);
+    texels[i] = clvRsmTexelFromHit(ray, sceneHit(ray), 1.0 / float(perLight));
+}

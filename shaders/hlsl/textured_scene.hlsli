@@ -1,0 +1,18 @@
+// What a ray meets in a scene with textures.
+#include "bvh.hlsli"
+
+[[vk::binding(CLV_BIND_SURFACES)]] Buffer<float4> surfaces;
+[[vk::binding(CLV_BIND_TEXTURE_ROWS)]] Buffer<uint4> textureRows;
+[[vk::binding(CLV_BIND_TEXTURE_TEXELS)]] Buffer<float4> textureTexels;
+float4 clvReadSurface(uint row) { return surfaces.Load(int(row)); }
+uint4 clvReadTextureRow(uint row) { return textureRows.Load(int(row)); }
+float4 clvReadTextureTexel(uint index) { return textureTexels.Load(int(index)); }
+#include "clv/stages/surface.h"
+#include "clv/stages/texture.h"
+
+ClvHit sceneHit(ClvRay ray) {
+    ClvBvhHit met = clvTraceBvh(ray.origin, ray.direction, ray.maxDistance);
+    ClvHit hit = clvHitOnSurface(met.primitive, met.distance, ray.direction);
+    if (met.primitive != kClvNoPrimitive) hit.albedo *= clvTextureOn(met.primitive, met.u, met.v);
+    return hit;
+}
