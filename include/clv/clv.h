@@ -87,5 +87,6 @@
 #include "cpu/texel_sampler.h"
 #include "cpu/texture_arrays.h"
 #include "cpu/volume.h"
+#include "cpu/walk_order.h"
 
 #endif

@@ -2,10 +2,12 @@
 #ifndef CLV_CPU_INJECT_H
 #define CLV_CPU_INJECT_H
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <span>
 
 #include "packet_walk.h"
+#include "walk_order.h"
 
 namespace clv {
 
@@ -68,28 +70,47 @@ inline void prefetch([[maybe_unused]] const float* p) {
 #endif
 }
 
+// Goes down from split cells to the slots that the middles of the crossings lie in. Round by round over all that are still split,
+// without branches: which side of a split a ray passes cannot be predicted.
+inline void resolveSplits(const Level& level, std::span<const ClvRay> rays, CrossingBuffer& buffer) {
+    int open[CrossingBuffer::kCapacity + kPacketLanes];
+    int count = 0;
+    for (int k = 0; k < buffer.count; ++k) {
+        open[count] = k;
+        count += (buffer.entry[k] & kClvSplitBit) != 0u;
+    }
+    while (count > 0) {
+        int left = 0;
+        for (int i = 0; i < count; ++i) {
+            const int k = open[i];
+            const ClvRay& ray = rays[buffer.lane[k]];
+            const ClvSplit& split = level.splits[buffer.entry[k] & ~kClvSplitBit];
+            const uint child = clvSideOfSplit(split, ray.origin + ray.direction * buffer.middle[k]);
+            buffer.entry[k] = child;
+            open[left] = k;
+            left += (child & kClvSplitBit) != 0u;
+        }
+        count = left;
+    }
+}
+
 template <int Stride>
 inline void depositCrossings(const Level& level, std::span<const ClvRay> rays, const PacketDeposits& packet, CrossingBuffer& buffer,
                              const DepositTarget& target) {
+    resolveSplits(level, rays, buffer);
     float* deposits = target.deposits.data();
     float* dynamicity = target.dynamicity.empty() ? nullptr : target.dynamicity.data();
     // Deposits that the caches near a core do not hold: only then is it worth the instructions to fetch them ahead.
     const bool far = target.deposits.size_bytes() > (std::size_t(2) << 20);
-    auto prepare = [&](int k) {
-        uint& slot = buffer.entry[k];
-        if (slot & kClvSplitBit) [[unlikely]] {
-            const ClvRay& ray = rays[buffer.lane[k]];
-            slot = slotAtPosition(level, slot, ray.origin + ray.direction * buffer.middle[k]);
-        }
-        if (!far) return;
-        const float* record = deposits + std::size_t(slot) * Stride;
-        for (int line = 0; line < Stride; line += 16) prefetch(record + line);
-    };
     // How many crossings ahead a record is fetched: enough to hide the way to memory.
     constexpr int kAhead = 32;
-    for (int k = 0; k < std::min(kAhead, buffer.count); ++k) prepare(k);
+    auto fetch = [&](int k) {
+        const float* record = deposits + std::size_t(buffer.entry[k]) * Stride;
+        for (int line = 0; line < Stride; line += 16) prefetch(record + line);
+    };
+    for (int k = 0; far && k < std::min(kAhead, buffer.count); ++k) fetch(k);
     for (int k = 0; k < buffer.count; ++k) {
-        if (k + kAhead < buffer.count) prepare(k + kAhead);
+        if (far && k + kAhead < buffer.count) fetch(k + kAhead);
         const uint slot = buffer.entry[k], lane = buffer.lane[k];
         const float weight = buffer.weight[k];
         float* __restrict record = deposits + std::size_t(slot) * Stride;
@@ -109,18 +130,25 @@ template <int Stride>
 void injectStrided(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
     PacketDeposits packet;
     CrossingBuffer buffer;
-    for (std::size_t first = 0; first < rays.size(); first += kPacketLanes) {
-        const auto lanes = rays.subspan(first, std::min<std::size_t>(kPacketLanes, rays.size() - first));
-        packetDeposits(layout, lanes, !target.dynamicity.empty(), packet);
-        auto flush = [&](CrossingBuffer& full) { depositCrossings<Stride>(level, lanes, packet, full, target); };
-        walkPacket(level, rule, lanes, buffer, flush);
-        flush(buffer);
+    WalkOrder order;
+    std::array<ClvRay, kPacketLanes> lanes;
+    for (std::size_t begin = 0; begin < rays.size(); begin += WalkOrder::kBlock) {
+        const auto block = rays.subspan(begin, std::min(WalkOrder::kBlock, rays.size() - begin));
+        order.sort(level.volume, block);
+        for (std::size_t first = 0; first < block.size(); first += kPacketLanes) {
+            const auto filled = std::span(lanes).first(std::min<std::size_t>(kPacketLanes, block.size() - first));
+            for (std::size_t i = 0; i < filled.size(); ++i) filled[i] = block[order[first + i]];
+            packetDeposits(layout, filled, !target.dynamicity.empty(), packet);
+            auto flush = [&](CrossingBuffer& full) { depositCrossings<Stride>(level, filled, packet, full, target); };
+            walkPacket(level, rule, filled, buffer, flush);
+            flush(buffer);
+        }
     }
 }
 
 }  // namespace detail
 
-// Adds the rays' deposits to `target`. Serial: rays go in order, so the sums are the same to the last bit from run to run.
+// Adds the rays' deposits to `target`. Serial: the order follows from the rays, so the sums are the same to the last bit from run to run.
 // Different targets may be filled from different threads.
 inline void inject(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
     switch (layout.stride()) {

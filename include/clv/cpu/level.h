@@ -6,6 +6,7 @@
 
 #include "../data/cell.h"
 #include "../data/light_volume.h"
+#include "../stages/find_slot.h"
 
 namespace clv {
 
@@ -36,8 +37,7 @@ inline CellSlots slotsOfCell(const Level& level, uint entry) {
 // The slot that holds a position in the cell with this table entry; kClvNoSlot stays kClvNoSlot.
 inline uint slotAtPosition(const Level& level, uint entry, const vec3& position) {
     while (entry != kClvNoSlot && (entry & kClvSplitBit)) {
-        const ClvSplit& split = level.splits[entry & ~kClvSplitBit];
-        entry = clvInFrontOfSplit(split, position) == 1 ? split.front : split.back;
+        entry = clvSideOfSplit(level.splits[entry & ~kClvSplitBit], position);
     }
     return entry;
 }

@@ -8,8 +8,10 @@ CLV_NAMESPACE_BEGIN
 
 CLV_FN bool clvIsSplit(uint entry) { return entry != kClvNoSlot && (entry & kClvSplitBit) != 0u; }
 
-// The side of a split on which the position lies: a slot, or a further split.
-CLV_FN uint clvSideOfSplit(ClvSplit split, vec3 position) { return clvInFrontOfSplit(split, position) == 1 ? split.front : split.back; }
+// The side of a split on which the position lies: a slot, or a further split. Without a branch, because it cannot be predicted.
+CLV_FN uint clvSideOfSplit(ClvSplit split, vec3 position) {
+    return split.back ^ ((split.front ^ split.back) & (0u - uint(clvInFrontOfSplit(split, position))));
+}
 
 // The slot of a cell of this table entry that holds the position; kClvNoSlot stays kClvNoSlot.
 CLV_READER_FN uint clvSlotAtPosition(CLV_READER uint entry, vec3 position) {
