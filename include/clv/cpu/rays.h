@@ -11,6 +11,15 @@ namespace clv {
 
 namespace detail {
 
+// Many at a time of clvCosineFromSquare, on arrays, so that the compiler makes vectors of it.
+inline void cosineDirections(int count, const float* __restrict u, const float* __restrict v, const float (*__restrict normal)[TexelSampler::kBlock],
+                             float* __restrict x, float* __restrict y, float* __restrict z) {
+    for (int k = 0; k < count; ++k) {
+        const vec3 d = clvCosineFromSquare(vec2(u[k], v[k]), vec3(normal[0][k], normal[1][k], normal[2][k]));
+        x[k] = d.x, y[k] = d.y, z[k] = d.z;
+    }
+}
+
 // Resamples each direction among RayGuide::kCandidates: the one that is there, made from (u, v), and others made from shifted copies
 // of (u, v), so that every candidate stays stratified. `probability` takes up the choice.
 inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, uint seed, const ClvRsmTexel* texel, const float* u, const float* v,
@@ -24,11 +33,9 @@ inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, 
         x[0][k] = direction[0][k], y[0][k] = direction[1][k], z[0][k] = direction[2][k];
     }
     for (int c = 1; c < kCandidates; ++c) {
-        for (int k = 0; k < count; ++k) {
-            const vec2 shifted(fract(u[k] + float(c) * kStepU), fract(v[k] + float(c) * kStepV));
-            const vec3 d = clvCosineFromSquare(shifted, vec3(normal[0][k], normal[1][k], normal[2][k]));
-            x[c][k] = d.x, y[c][k] = d.y, z[c][k] = d.z;
-        }
+        float shiftedU[kBlock], shiftedV[kBlock];
+        for (int k = 0; k < count; ++k) shiftedU[k] = fract(u[k] + float(c) * kStepU), shiftedV[k] = fract(v[k] + float(c) * kStepV);
+        cosineDirections(count, shiftedU, shiftedV, normal, x[c], y[c], z[c]);
     }
     int row[kBlock];
     for (int k = 0; k < count; ++k) row[k] = guide.rowAt(texel[k].position);
@@ -78,12 +85,7 @@ inline void makeRays(const TexelSampler& sampler, uint firstIndex, uint seed, fl
         for (int k = 0; k < count; ++k) {
             for (int axis = 0; axis < 3; ++axis) normal[axis][k] = texel[k].normal[axis];
         }
-        for (int k = 0; k < count; ++k) {
-            const vec3 d = clvCosineFromSquare(vec2(u[2][k], u[3][k]), vec3(normal[0][k], normal[1][k], normal[2][k]));
-            direction[0][k] = d.x;
-            direction[1][k] = d.y;
-            direction[2][k] = d.z;
-        }
+        detail::cosineDirections(count, u[2], u[3], normal, direction[0], direction[1], direction[2]);
         if (sampler.guide()) detail::chooseDirections(*sampler.guide(), count, index, seed, texel, u[2], u[3], direction, probability);
         for (int k = 0; k < count; ++k) {
             const vec3 d(direction[0][k], direction[1][k], direction[2][k]);
