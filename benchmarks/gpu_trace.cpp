@@ -1,0 +1,178 @@
+// Time of the trace stage on a Vulkan device, from its timestamps, beside the same walk on one thread of the host and Embree's
+// rtcIntersect1 in the same run. The CPU column is the time that all threads of the process took: on a device that runs on the CPU,
+// what the work costs there. CLV_DEVICE chooses the device by name.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+
+#include <embree3/rtcore.h>
+
+#include "bindings/embree/bvh.h"
+#include "bindings/embree/rsm.h"
+#include "bindings/scene/surface_rows.h"
+#include "bindings/vulkan/vulkan_frame.h"
+#include "clv/plan/light_frame.h"
+#include "clv/stages/trace_bvh.h"
+
+namespace clv {
+namespace {
+
+constexpr std::size_t kRays = 65536;
+constexpr std::uint32_t kRsmSide = 128, kSeed = 1;
+
+struct TreeReader {
+    const Bvh& bvh;
+    vec4 clvReadBvhBoxes(uint row) const { return bvh.boxes[row]; }
+    uvec4 clvReadBvhChildren(uint node) const { return bvh.children[node]; }
+    vec4 clvReadTriangle(uint row) const { return bvh.triangles[row]; }
+};
+
+// A built-in scene on the device; its rays as the rays pass makes them, before they are cut.
+struct Case {
+    explicit Case(const std::string& name) : scene(makeBuiltinScene(name)), bvh(buildBvh(scene)) {
+        const char* wanted = std::getenv("CLV_DEVICE");
+        device = std::make_unique<VulkanDevice>(VulkanOptions{.device = wanted ? wanted : ""});
+        std::vector<ClvLight> lights;
+        for (const NamedLight& light : scene.lights) lights.push_back(light.light);
+        LightFrameSettings settings;
+        settings.lights = lights.size(), settings.rsmSide = kRsmSide, settings.rays = kRays;
+        settings.triangles = scene.triangles.size(), settings.bvhNodes = bvh.children.size();
+        frame = std::make_unique<VulkanFrame>(*device, lightFrame(settings));
+        ClvFrame constants{};
+        constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
+        constants.rayCount = kRays, constants.halves = 1, constants.seed = kSeed;
+        constants.rsmSide = kRsmSide, constants.lightCount = uint(lights.size());
+        constants.originOffset = EmbreeScene(scene).surfaceOffset();
+        frame->upload("frame", constants);
+        frame->upload("lights", std::span<const ClvLight>(lights));
+        frame->upload("bvh boxes", std::span<const vec4>(bvh.boxes));
+        frame->upload("bvh children", std::span<const uvec4>(bvh.children));
+        frame->upload("triangles", std::span<const vec4>(bvh.triangles));
+        frame->upload("surfaces", std::span<const vec4>(surfaceRowsOf(scene).surfaces));
+        frame->run("rsm");
+        frame->run("light");  // shaders are compiled at their first run
+        rays.resize(kRays);
+        frame->download("rays", std::span(rays));
+        for (ClvRay& ray : rays) ray.maxDistance = ray.maxDistance > 0.0f ? kClvFar : 0.0f;
+
+        frame = std::make_unique<VulkanFrame>(*device, traceAlone());
+        frame->upload("frame", constants);
+        frame->upload("bvh boxes", std::span<const vec4>(bvh.boxes));
+        frame->upload("bvh children", std::span<const uvec4>(bvh.children));
+        frame->upload("triangles", std::span<const vec4>(bvh.triangles));
+        frame->upload("rays", std::span<const ClvRay>(rays));
+        frame->run("trace");
+    }
+
+    // The trace pass with rays that the host writes.
+    Frame traceAlone() const {
+        Frame alone;
+        alone.buffers = {{"frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host},
+                         {"rays", CLV_BIND_RAYS, kRays * sizeof(ClvRay), FrameSource::host},
+                         {"bvh boxes", CLV_BIND_BVH_BOXES, bvh.boxes.size() * sizeof(vec4), FrameSource::host},
+                         {"bvh children", CLV_BIND_BVH_CHILDREN, bvh.children.size() * sizeof(uvec4), FrameSource::host},
+                         {"triangles", CLV_BIND_TRIANGLES, bvh.triangles.size() * sizeof(vec4), FrameSource::host}};
+        const auto texel = [](std::uint32_t buffer, FrameFormat format) { return FrameUse{buffer, FrameBinding::texel, FrameAccess::read, format}; };
+        FramePass pass{.name = "trace", .shader = "trace", .constants = {}, .uses = {}, .groups = groupsFor(kRays), .barriers = {}};
+        pass.uses = {{0, FrameBinding::uniform}, {1, FrameBinding::storage, FrameAccess::readWrite}, texel(2, FrameFormat::rgba32Float),
+                     texel(3, FrameFormat::rgba32Uint), texel(4, FrameFormat::rgba32Float)};
+        alone.steps = {{"trace", {pass}}};
+        return alone;
+    }
+
+    Scene scene;
+    Bvh bvh;
+    std::unique_ptr<VulkanDevice> device;
+    std::unique_ptr<VulkanFrame> frame;
+    std::vector<ClvRay> rays;
+};
+
+const Case& caseOf(const std::string& name) {
+    static std::map<std::string, std::unique_ptr<Case>> cases;
+    auto& made = cases[name];
+    if (!made) made = std::make_unique<Case>(name);
+    return *made;
+}
+
+void countRays(benchmark::State& state) {
+    state.counters["s/ray"] = benchmark::Counter(double(kRays), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// The CPU column has the copy of the rays to the device in it.
+void onDevice(benchmark::State& state, const Case& c) {
+    for (auto _ : state) {
+        state.PauseTiming();
+        c.frame->upload("rays", std::span<const ClvRay>(c.rays));
+        state.ResumeTiming();
+        c.frame->run("trace");
+        state.SetIterationTime(1e-3 * c.frame->times("trace").front().second);
+    }
+    state.SetLabel(c.device->info().name);
+    countRays(state);
+}
+
+void onHost(benchmark::State& state, const Case& c) {
+    for (auto _ : state) {
+        for (const ClvRay& ray : c.rays) benchmark::DoNotOptimize(clvTraceBvh(TreeReader{c.bvh}, ray.origin, ray.direction, ray.maxDistance));
+    }
+    state.SetLabel("one thread");
+    countRays(state);
+}
+
+RTCScene makeEmbreeScene(RTCDevice device, const Scene& scene) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    std::copy(scene.positions.begin(), scene.positions.end(),
+              static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), scene.positions.size())));
+    std::copy(scene.triangles.begin(), scene.triangles.end(),
+              static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.triangles.size())));
+    rtcCommitGeometry(geometry);
+    const RTCScene made = rtcNewScene(device);
+    rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_HIGH);
+    rtcAttachGeometry(made, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(made);
+    return made;
+}
+
+void withEmbree(benchmark::State& state, const Case& c) {
+    const RTCDevice device = rtcNewDevice(nullptr);
+    const RTCScene scene = makeEmbreeScene(device, c.scene);
+    for (auto _ : state) {
+        for (const ClvRay& ray : c.rays) {
+            RTCIntersectContext context;
+            rtcInitIntersectContext(&context);
+            RTCRayHit query{};
+            query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
+            query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
+            query.ray.tfar = ray.maxDistance;
+            query.ray.mask = ~0u;
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            rtcIntersect1(scene, &context, &query);
+            benchmark::DoNotOptimize(query);
+        }
+    }
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+    state.SetLabel("one thread");
+    countRays(state);
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+    for (const std::string scene : {"cornell", "two_rooms", "atrium"}) {
+        auto add = [&](const std::string& way, auto&& body) {
+            return benchmark::RegisterBenchmark(("gpu_trace/" + scene + "/" + way).c_str(), [scene, body](benchmark::State& state) { body(state, caseOf(scene)); })
+                ->Unit(benchmark::kMillisecond)
+                ->MeasureProcessCPUTime();
+        };
+        add("embree", withEmbree);
+        add("host", onHost);
+        add("device", onDevice)->UseManualTime();
+    }
+    return true;
+}();
+
+}  // namespace
+}  // namespace clv
