@@ -11,9 +11,14 @@ namespace clv::test {
 inline std::atomic<std::size_t> allocations{0};
 inline std::size_t allocationCount() { return allocations; }
 
-inline void* allocate(std::size_t size, std::size_t alignment) {
+// Null where there is no memory.
+inline void* tryAllocate(std::size_t size, std::size_t alignment) {
     ++allocations;
-    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+inline void* allocate(std::size_t size, std::size_t alignment) {
+    void* memory = tryAllocate(size, alignment);
     if (!memory) throw std::bad_alloc();
     return memory;
 }
@@ -22,6 +27,7 @@ inline void* allocate(std::size_t size, std::size_t alignment) {
 
 void* operator new(std::size_t size) { return clv::test::allocate(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return clv::test::allocate(size, std::size_t(alignment)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return clv::test::tryAllocate(size, alignof(std::max_align_t)); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
