@@ -1,6 +1,7 @@
 // The rsm step renders the maps that Embree renders, and their running sums.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +41,8 @@ void expectTexelsOfTheHost(TracedScene& traced, std::uint32_t side) {
     for (std::size_t k = 0; k < traced.lights.size(); ++k) {
         renderRsm(traced.embree, traced.lights[k], int(side), traced.constants.rsmPass, clvHashCombine(traced.constants.rsmSeed, uint(k)), serialFor(), expected);
         const std::span<const ClvRsmTexel> texels = std::span(results.texels).subspan(k * each, each);
+        float brightest = 0.0f;
+        for (const ClvRsmTexel& texel : expected) brightest = std::max(brightest, length(texel.flux));
         std::size_t elsewhere = 0;
         for (std::size_t i = 0; i < each; ++i) {
             // Sines of the device differ in the last bits: a ray next to an edge may meet the other side of it.
@@ -49,7 +52,8 @@ void expectTexelsOfTheHost(TracedScene& traced, std::uint32_t side) {
             }
             if (!texels[i].valid) continue;
             EXPECT_LT(length(texels[i].normal - expected[i].normal), 1e-5f) << k << " " << i;
-            EXPECT_LE(length(texels[i].flux - expected[i].flux), 1e-5f * length(expected[i].flux)) << k << " " << i;
+            // At the rim of a cone the falloff is a small difference of cosines.
+            EXPECT_LE(length(texels[i].flux - expected[i].flux), 1e-5f * brightest) << k << " " << i;
             EXPECT_EQ(texels[i].dynamicity, expected[i].dynamicity);
         }
         EXPECT_LE(elsewhere, 2u) << k;
