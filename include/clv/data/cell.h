@@ -4,7 +4,7 @@
 // Divided by the cell's open volume, m^3, it is the mean of coefficient k, W/m^2. Irradiance is linear in the coefficients.
 #ifndef CLV_DATA_CELL_H
 #define CLV_DATA_CELL_H
-#include "../math/constants.h"
+#include "../math/sh.h"
 CLV_NAMESPACE_BEGIN
 
 CLV_CONST uint kClvStorageCube = 0u;   // ambient cube: irradiance on the six sides +x -x +y -y +z -z
@@ -31,15 +31,9 @@ CLV_FN ClvCoefficients clvDepositCoefficients(uint storage, vec3 direction) {
     ClvCoefficients f;
     vec3 w = vec3(-direction.x, -direction.y, -direction.z);  // where the light comes from
     if (storage == kClvStorageSh1 || storage == kClvStorageSh2) {
-        // Real spherical harmonics, Condon-Shortley phase left out.
-        f.a = vec4(0.282094791773878f, 0.488602511902920f * w.y, 0.488602511902920f * w.z, 0.488602511902920f * w.x);
-        f.b = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-        f.c = 0.0f;
-        if (storage == kClvStorageSh2) {
-            f.b = vec4(1.09254843059208f * w.x * w.y, 1.09254843059208f * w.y * w.z,
-                       0.315391565252520f * (3.0f * w.z * w.z - 1.0f), 1.09254843059208f * w.x * w.z);
-            f.c = 0.546274215296040f * (w.x * w.x - w.y * w.y);
-        }
+        f.a = clvShTo3(w);
+        f.b = storage == kClvStorageSh2 ? clvShTo7(w) : vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        f.c = storage == kClvStorageSh2 ? clvShTo8(w) : 0.0f;
         return f;
     }
     f.a = vec4(max(w.x, 0.0f), max(-w.x, 0.0f), max(w.y, 0.0f), max(-w.y, 0.0f));
@@ -61,14 +55,9 @@ CLV_FN ClvCoefficients clvDepositCoefficients(uint storage, vec3 direction) {
 CLV_FN ClvCoefficients clvReadCoefficients(uint storage, vec3 n) {
     ClvCoefficients r;
     if (storage == kClvStorageSh1 || storage == kClvStorageSh2) {
-        r.a = vec4(0.886226925452758f, 1.02332670794649f * n.y, 1.02332670794649f * n.z, 1.02332670794649f * n.x);
-        r.b = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-        r.c = 0.0f;
-        if (storage == kClvStorageSh2) {
-            r.b = vec4(0.858085530977834f * n.x * n.y, 0.858085530977834f * n.y * n.z,
-                       0.247707956100380f * (3.0f * n.z * n.z - 1.0f), 0.858085530977834f * n.x * n.z);
-            r.c = 0.429042765488917f * (n.x * n.x - n.y * n.y);
-        }
+        r.a = clvShTo3(n) * vec4(kClvShCosine0, kClvShCosine1, kClvShCosine1, kClvShCosine1);
+        r.b = storage == kClvStorageSh2 ? clvShTo7(n) * kClvShCosine2 : vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        r.c = storage == kClvStorageSh2 ? clvShTo8(n) * kClvShCosine2 : 0.0f;
         return r;
     }
     r.a = vec4(0.5f * (n.x * n.x + n.x), 0.5f * (n.x * n.x - n.x), 0.5f * (n.y * n.y + n.y), 0.5f * (n.y * n.y - n.y));
