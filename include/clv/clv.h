@@ -81,6 +81,7 @@
 #include "cpu/partial_volume.h"
 #include "cpu/ray_guide.h"
 #include "cpu/rays.h"
+#include "cpu/region_tree.h"
 #include "cpu/resolution.h"
 #include "cpu/scene_probe.h"
 #include "cpu/still_lighting.h"

@@ -1,4 +1,4 @@
-// The open regions of a cell that geometry cuts: their volumes, centroids, and the planes that part them.
+// The open regions of a cell that geometry cuts: their volumes, centroids, and the tree of planes that parts them.
 //
 // The lines of a LineGrid are cut into intervals by their crossings with the scene. Intervals that share a lattice point belong
 // to one region. Lengths are exact along a line, so a wall that is square to an axis is measured exactly by that axis' lines;
@@ -9,19 +9,14 @@
 #include <vector>
 
 #include "line_grid.h"
+#include "region_tree.h"
 
 namespace clv {
 
 struct OpenRegion {
     float volume = 0.0f;   // m^3
     vec3 centroid{0.0f};   // m, relative to the anchor
-    vec3 inside{0.0f};     // a point of the region, near its centroid
-};
-
-// A node of the tree of planes that parts a cell. Children below 0 are regions: -1 - region.
-struct RegionSplit {
-    vec4 plane{0.0f};
-    int front = -1, back = -1;
+    vec3 inside{0.0f};     // a point of the region, near its centroid and clear of surfaces
 };
 
 struct CellRegions {
@@ -75,18 +70,12 @@ private:
     };
     struct Region {
         int root = -1;
-        float length = 0, enclosed = 0;  // m, of all intervals, and of those between two backs
-        float volume = 0;                // m^3
-        float fronts = 0, backs = 0;     // m, of the intervals that see them
+        float bounded = 0, enclosed = 0;  // m, of the intervals that end at a surface, and of those between two backs
+        float volume = 0;                 // m^3
+        float fronts = 0, backs = 0;      // m, of the intervals that see them
         // How much of the region looks out on front faces. What lies behind the walls of a room sees backs only.
         float openness() const { return fronts > 0.0f ? fronts / (fronts + backs) : 0.0f; }
         float rank() const { return volume * openness() * openness() * openness(); }
-    };
-    // A short piece of a line in one of the regions.
-    struct Sample {
-        vec3 position;   // m, from the cell's lowest corner
-        float volume;    // m^3, what it stands for
-        int region;
     };
     struct LineEnds {
         int first, last;  // nodes
@@ -95,38 +84,14 @@ private:
         vec3 normal, position;
         int axis, below;  // the line's axis, and the node that ends here; the next node begins here
     };
-    // Surface points that look to one side of a plane, and how many of them each region has.
-    struct FaceSum {
-        vec3 sum{0.0f};
-        int count = 0;
-        int of[kClvMostSlots] = {};
-        void add(int region, const vec3& p) {
-            if (region >= 0) sum += p, ++count, ++of[region];
-        }
-    };
-    struct Plane {
-        vec3 normal{0.0f};     // sum
-        FaceSum facing[2];     // to the front, to the back
-        int count = 0;
-    };
-
-    // Cosine between surfaces that count as one plane.
-    static constexpr float kSamePlane = 0.9f;
-    static constexpr std::size_t kMostPlanes = 4;
     // Pieces into which an interval is cut to see on which side of a plane it lies.
     static constexpr int kSteps = 4;
-    // Share of a plane's surface that a region must meet, and of the region that must lie on either side, for it to be parted there.
-    static constexpr float kEdgeShare = 0.05f;
-    // Volume of other regions, over a slot's own, up to which it is left out.
-    static constexpr float kMostStray = 0.25f;
-    // Share of the impurity that a further plane must remove.
-    static constexpr float kLeastGain = 0.02f;
-
     // How far from a face of the cell a surface still counts as cutting it, in cells.
     static constexpr float kFaceMargin = 1e-3f;
     // Regions below this share of the cell are too thin to measure or to be read.
     static constexpr float kLeastShare = 1e-4f;
-    // Share of a region's length that must be enclosed by backs for it to count as the inside of a solid.
+    // Share of a region's length that must be enclosed by backs for it to count as the inside of a solid. Lines that meet nothing say
+    // nothing: they may begin and end inside of one.
     static constexpr float kSolidShare = 0.95f;
 
     int root(int k) {
@@ -180,7 +145,9 @@ private:
     }
 
     bool solidAround() const {
-        return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.backs() == 2; });
+        bool enclosed = false, open = false;
+        for (const Node& node : nodes_) (node.backs() == 2 ? enclosed : open) |= node.fronts() + node.backs() > 0;
+        return enclosed && !open;
     }
 
     bool holdsLattice(const Node& node) const {
@@ -243,7 +210,7 @@ private:
             Region& region = regions_[regionOf_[r]];
             const Node& node = nodes_[k];
             const float length = node.end - node.begin;
-            region.length += length;
+            if (node.fronts() + node.backs() > 0) region.bounded += length;
             region.fronts += length * float(node.fronts());
             region.backs += length * float(node.backs());
             if (node.backs() == 2) region.enclosed += length;
@@ -251,7 +218,7 @@ private:
         }
         // The inside of a solid never holds light.
         std::erase_if(regions_, [&](const Region& r) {
-            return r.enclosed > kSolidShare * r.length || !(r.volume > kLeastShare * h_ * h_ * h_);
+            return r.enclosed > kSolidShare * r.bounded || !(r.volume > kLeastShare * h_ * h_ * h_);
         });
         std::sort(regions_.begin(), regions_.end(),
                   [](const Region& a, const Region& b) { return a.rank() != b.rank() ? a.rank() > b.rank() : a.root < b.root; });
@@ -271,160 +238,42 @@ private:
                 samples_.push_back({p, piece * axisWeight[node.axis], regionOf_[k]});
             }
         }
-        gatherPlanes();
-        partAroundEdges();
-        if (regions_.size() > 1) growTree(out, 0, samples_.size(), 0);
-        measure(out);
+        faces_.clear();
+        for (const Surface& s : surfaces_) faces_.push_back({s.normal, s.position, s.axis, regionOf_[s.below], regionOf_[s.below + 1]});
+        const int parts = tree_.grow(faces_, int(regions_.size()), lowest_, samples_, out.splits);
+        measure(out, parts);
     }
 
-    // The surfaces that lie between open regions, or inside one, as planes: surfaces of about one direction make one plane, so the
-    // two faces of a thin wall give the plane in its middle.
-    void gatherPlanes() {
-        planes_.clear();
-        for (const Surface& s : surfaces_) {
-            const int below = regionOf_[s.below], above = regionOf_[s.below + 1];
-            if (below < 0 && above < 0) continue;
-            Plane* match = nullptr;
-            for (Plane& plane : planes_) {
-                if (std::abs(dot(glm::normalize(plane.normal), s.normal)) > kSamePlane) match = &plane;
-            }
-            if (!match) {
-                planes_.push_back({});
-                match = &planes_.back();
-                match->normal = s.normal;
-            } else {
-                match->normal += dot(match->normal, s.normal) < 0.0f ? -s.normal : s.normal;
-            }
-            const bool upwards = match->normal[s.axis] > 0.0f;  // along the axis means to the plane's front
-            match->facing[0].add(upwards ? above : below, s.position);
-            match->facing[1].add(upwards ? below : above, s.position);
-            match->count++;
+    // Distance from a position in the cell to the closest point where a line meets a surface, m. One of `tooClose` or less is not refined.
+    float clearance(const vec3& position, float tooClose) const {
+        const float enough = tooClose > 0.0f ? tooClose * tooClose : 0.0f;
+        float nearest = h_ * h_;
+        for (std::size_t k = 0; k < surfaces_.size() && nearest > enough; ++k) {
+            const vec3 d = surfaces_[k].position - position;
+            nearest = std::min(nearest, dot(d, d));
         }
-        // Insertion keeps the order of equals, and needs no memory as std::stable_sort does.
-        for (std::size_t i = 1; i < planes_.size(); ++i) {
-            for (std::size_t k = i; k > 0 && planes_[k].count > planes_[k - 1].count; --k) std::swap(planes_[k], planes_[k - 1]);
-        }
-        if (planes_.size() > kMostPlanes) planes_.resize(kMostPlanes);
+        return std::sqrt(nearest);
     }
 
-    // Offset half-way between the faces that look to the plane's front and those that look to its back.
-    vec4 planeEquation(const Plane& plane) const {
-        const vec3 normal = glm::normalize(plane.normal);
-        float offset = 0.0f;
-        int faces = 0;
-        for (const FaceSum& face : plane.facing) {
-            if (face.count > 0) offset += dot(normal, face.sum) / float(face.count), ++faces;
-        }
-        return vec4(normal, offset / float(std::max(faces, 1)));
-    }
-
-    // A region that reaches around an edge, be it of a sheet, of a thin wall or of a block, is parted by the planes of the surfaces that it
-    // meets there: light behind a surface's plane cannot reach the surface.
-    void partAroundEdges() {
-        for (const Plane& plane : planes_) {
-            const vec4 equation = planeEquation(plane);
-            const int count = int(regions_.size());
-            for (int r = 0; r < count && regions_.size() < kClvMostSlots; ++r) {
-                if (kEdgeShare * float(plane.count) > float(plane.facing[0].of[r] + plane.facing[1].of[r])) continue;
-                float front = 0.0f, back = 0.0f;
-                for (const Sample& s : samples_) {
-                    if (s.region == r) (dot(vec3(equation), s.position) > equation.w ? front : back) += s.volume;
-                }
-                if (std::min(front, back) < kEdgeShare * (front + back)) continue;
-                const int other = int(regions_.size());
-                for (Sample& s : samples_) {
-                    if (s.region == r && dot(vec3(equation), s.position) <= equation.w) s.region = other;
-                }
-                regions_.push_back(regions_[r]);
-            }
-        }
-    }
-
-    // How mixed samples are, m^3: the volume times the chance that two of them belong to different regions.
-    struct Mixture {
-        float volume[kClvMostSlots] = {};
-        float impurity() const {
-            float sum = 0.0f, squares = 0.0f;
-            for (float v : volume) sum += v, squares += v * v;
-            return sum > 0.0f ? sum - squares / sum : 0.0f;
-        }
-        int largest() const { return int(std::max_element(volume, volume + kClvMostSlots) - volume); }
-    };
-
-    // A decision tree over samples [first, last): each node takes the plane that leaves the two sides purest. Returns the child's index
-    // as RegionSplit has it.
-    int growTree(CellRegions& out, std::size_t first, std::size_t last, int depth) {
-        Mixture all;
-        for (std::size_t k = first; k < last; ++k) all.volume[samples_[k].region] += samples_[k].volume;
-        const float before = all.impurity();
-        int best = -1;
-        float least = before * (1.0f - kLeastGain);
-        if (depth < kClvMostSplits && before > 0.0f) {
-            for (int p = 0; p < int(planes_.size()); ++p) {
-                const vec4 equation = planeEquation(planes_[p]);
-                Mixture side[2];
-                for (std::size_t k = first; k < last; ++k) {
-                    const Sample& s = samples_[k];
-                    side[dot(vec3(equation), s.position) > equation.w ? 0 : 1].volume[s.region] += s.volume;
-                }
-                const float impurity = side[0].impurity() + side[1].impurity();
-                if (impurity < least) least = impurity, best = p;
-            }
-        }
-        if (best < 0) {
-            // Deposits go where the tree sends them, so what the planes leave of this region elsewhere counts here. A little of another
-            // region, as behind a curved wall, is left out: mostly it is dark there. More of it is counted, lest a slot of next to no
-            // volume take in the light of a large one.
-            const int region = all.largest();
-            const int origin = regions_[region].root;
-            float own = 0.0f, other = 0.0f;
-            for (std::size_t k = first; k < last; ++k) (regions_[samples_[k].region].root == origin ? own : other) += samples_[k].volume;
-            for (std::size_t k = first; k < last; ++k) {
-                const bool stray = regions_[samples_[k].region].root != origin && other < kMostStray * own;
-                samples_[k].region = stray ? -1 : region;
-            }
-            return -1 - region;
-        }
-        const vec4 equation = planeEquation(planes_[best]);
-        const std::size_t half = partition(first, last, equation);
-        const std::size_t node = out.splits.size();
-        out.splits.push_back({vec4(vec3(equation), equation.w + dot(vec3(equation), lowest_)), 0, 0});
-        const int front = growTree(out, first, half, depth + 1);
-        const int back = growTree(out, half, last, depth + 1);
-        out.splits[node].front = front;
-        out.splits[node].back = back;
-        return int(node);
-    }
-
-    // Moves samples in front of the plane before the others, each kind in its order; returns where the others begin.
-    std::size_t partition(std::size_t first, std::size_t last, const vec4& equation) {
-        behind_.clear();
-        std::size_t half = first;
-        for (std::size_t k = first; k < last; ++k) {
-            const Sample s = samples_[k];
-            if (dot(vec3(equation), s.position) > equation.w) samples_[half++] = s;
-            else behind_.push_back(s);
-        }
-        std::copy(behind_.begin(), behind_.end(), samples_.begin() + half);
-        return half;
-    }
-
-    // Volume, centroid and inner point of each region, by the samples that the tree sends to it. Regions that got none are dropped.
-    void measure(CellRegions& out) {
+    // Volume, centroid and inner point of each part, by the samples that the tree sends to it. Parts that got none are dropped.
+    void measure(CellRegions& out, int parts) {
         int renumber[kClvMostSlots];
-        for (int r = 0; r < int(regions_.size()); ++r) {
+        for (int r = 0; r < parts; ++r) {
             OpenRegion region;
             vec3 moment(0.0f);
-            for (const Sample& s : samples_) {
+            for (const RegionSample& s : samples_) {
                 if (s.region == r) region.volume += s.volume, moment += s.position * s.volume;
             }
             renumber[r] = int(out.regions.size());
             if (!(region.volume > 0.0f)) continue;
             region.centroid = moment / region.volume;
-            float nearest = 1e30f;
-            for (const Sample& s : samples_) {
-                const vec3 d = s.position - region.centroid;
-                if (s.region == r && dot(d, d) < nearest) nearest = dot(d, d), region.inside = s.position;
+            // Of a region that bends around a column, the sample next to the centroid may lie on the column, and see nothing.
+            float least = 1e30f;
+            for (const RegionSample& s : samples_) {
+                if (s.region != r) continue;
+                const float away = length(s.position - region.centroid);
+                const float cost = away - clearance(s.position, away - least);
+                if (cost < least) least = cost, region.inside = s.position;
             }
             region.centroid += lowest_;
             region.inside += lowest_;
@@ -449,9 +298,9 @@ private:
     std::vector<int> nodeAt_[3];
     std::vector<Region> regions_;
     std::vector<int> regionOf_;  // a node each, -1: none that is kept
-    std::vector<Sample> samples_;
-    std::vector<Sample> behind_;
-    std::vector<Plane> planes_;
+    std::vector<RegionSample> samples_;
+    std::vector<RegionFace> faces_;
+    RegionTree tree_;
     CellRegions found_;
 };
 
