@@ -8,7 +8,7 @@
 layout(local_size_x = CLV_GROUP_SIZE) in;
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
 layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
-layout(std430, binding = CLV_BIND_RAYS) readonly buffer Rays { ClvRay rays[]; };
+layout(binding = CLV_BIND_RAYS) uniform samplerBuffer rays;
 layout(std430, binding = CLV_BIND_BRICK_CURSORS) buffer Cursors { uint cursors[]; };
 
 void main() {
@@ -16,7 +16,8 @@ void main() {
     if (i >= frame.rayCount) return;
     uint first = i / (frame.rayCount / frame.halves) * level.brickCount;
     ClvVolume bricks = clvBrickVolume(level.volume);
-    ClvRay ray = rays[i];
+    int row = int(3u * i);
+    ClvRay ray = clvRayFromRows(texelFetch(rays, row), texelFetch(rays, row + 1), texelFetch(rays, row + 2));
     ClvWalk walk = clvWalkBegin(bricks, ray);
     while (walk.running == 1) {
         ClvCrossing crossing = clvWalkStep(walk, ray.direction);

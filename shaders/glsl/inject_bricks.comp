@@ -1,10 +1,11 @@
-// Eight lanes, a slot each, gather the rays of their brick: each lane loads one ray, and shuffles share it. Subgroups have a multiple of
+// Eight lanes, a slot each, gather the rays of their brick and merge them into the history: each lane loads one ray, and shuffles share it. Subgroups have a multiple of
 // eight lanes.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 #extension GL_EXT_control_flow_attributes : require
 #include "clv/data/frame.h"
+#include "clv/stages/merge.h"
 layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
 layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
 layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
@@ -16,7 +17,7 @@ layout(binding = CLV_BIND_RAYS) uniform samplerBuffer rays;
 layout(std430, binding = CLV_BIND_TABLE) readonly buffer Table { uint table[]; };
 layout(std430, binding = CLV_BIND_SPLITS) readonly buffer Splits { ClvSplit splits[]; };
 layout(std430, binding = CLV_BIND_SLOTS) readonly buffer Slots { ClvSlot slots[]; };
-layout(std430, binding = CLV_BIND_DEPOSITS) writeonly buffer Deposits { vec4 deposits[]; };
+layout(std430, binding = CLV_BIND_HISTORY) buffer History { vec4 history[]; };
 layout(std430, binding = CLV_BIND_BRICK_CURSORS) readonly buffer Cursors { uint cursors[]; };
 layout(std430, binding = CLV_BIND_BRICK_BEGINS) readonly buffer Begins { uint begins[]; };
 layout(std430, binding = CLV_BIND_BRICK_RAYS) readonly buffer BrickRays { uint brickRays[]; };
@@ -67,5 +68,7 @@ void main() {
     }
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
-    [[unroll]] for (uint row = 0u; row < stride / 4u; ++row) deposits[firstRow + row] = clvRecordRow(sum, channels, row);
+    [[unroll]] for (uint row = 0u; row < stride / 4u; ++row) {
+        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+    }
 }

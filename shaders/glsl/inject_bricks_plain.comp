@@ -1,8 +1,9 @@
-// Eight lanes, a slot each, gather the rays of their brick; each loads every ray, so that no subgroups are needed.
+// Eight lanes, a slot each, gather the rays of their brick and merge them into the history; each loads every ray, so that no subgroups are needed.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "clv/data/frame.h"
+#include "clv/stages/merge.h"
 layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
 layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
 layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
@@ -14,7 +15,7 @@ layout(binding = CLV_BIND_RAYS) uniform samplerBuffer rays;
 layout(std430, binding = CLV_BIND_TABLE) readonly buffer Table { uint table[]; };
 layout(std430, binding = CLV_BIND_SPLITS) readonly buffer Splits { ClvSplit splits[]; };
 layout(std430, binding = CLV_BIND_SLOTS) readonly buffer Slots { ClvSlot slots[]; };
-layout(std430, binding = CLV_BIND_DEPOSITS) writeonly buffer Deposits { vec4 deposits[]; };
+layout(std430, binding = CLV_BIND_HISTORY) buffer History { vec4 history[]; };
 layout(std430, binding = CLV_BIND_BRICK_CURSORS) readonly buffer Cursors { uint cursors[]; };
 layout(std430, binding = CLV_BIND_BRICK_BEGINS) readonly buffer Begins { uint begins[]; };
 layout(std430, binding = CLV_BIND_BRICK_RAYS) readonly buffer BrickRays { uint brickRays[]; };
@@ -41,12 +42,18 @@ void main() {
     uint list = place.halfIndex * level.brickCount + clvBrickOfCell(level.volume, at);
     uint end = cursors[list];
     ClvRecord sum = clvNoRecord();
-    for (uint i = begins[list]; i < end; ++i) {
-        ClvSegment segment = loadSegment(i);
-        float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
-        clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+    // By eights: some drivers end an invocation's loops without a word after 65535 rounds.
+    for (uint first = begins[list]; first < end; first += kClvBrickLanes) {
+        [[unroll]] for (uint k = 0u; k < kClvBrickLanes; ++k) {
+            ClvSegment segment = clvNoSegment();
+            if (first + k < end) segment = loadSegment(first + k);
+            float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
+            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+        }
     }
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
-    [[unroll]] for (uint row = 0u; row < stride / 4u; ++row) deposits[firstRow + row] = clvRecordRow(sum, channels, row);
+    [[unroll]] for (uint row = 0u; row < stride / 4u; ++row) {
+        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+    }
 }

@@ -5,7 +5,7 @@
 
 [[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
 [[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
-[[vk::binding(CLV_BIND_RAYS)]] StructuredBuffer<ClvRay> rays;
+[[vk::binding(CLV_BIND_RAYS)]] Buffer<float4> rays;
 [[vk::binding(CLV_BIND_BRICK_CURSORS)]] RWStructuredBuffer<uint> cursors;
 [[vk::binding(CLV_BIND_BRICK_RAYS)]] RWStructuredBuffer<uint> brickRays;
 
@@ -15,7 +15,8 @@ void main(uint3 thread : SV_DispatchThreadID) {
     if (i >= frame.rayCount) return;
     uint first = i / (frame.rayCount / frame.halves) * level.brickCount;
     ClvVolume bricks = clvBrickVolume(level.volume);
-    ClvRay ray = rays[i];
+    int row = int(3u * i);
+    ClvRay ray = clvRayFromRows(rays.Load(row), rays.Load(row + 1), rays.Load(row + 2));
     ClvWalk walk = clvWalkBegin(bricks, ray);
     while (walk.running == 1) {
         ClvCrossing crossing = clvWalkStep(walk, ray.direction);

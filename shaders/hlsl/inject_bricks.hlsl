@@ -1,6 +1,7 @@
-// Eight lanes, a slot each, gather the rays of their brick: each lane loads one ray, and shuffles share it. Subgroups have a multiple of
+// Eight lanes, a slot each, gather the rays of their brick and merge them into the history: each lane loads one ray, and shuffles share it. Subgroups have a multiple of
 // eight lanes.
 #include "clv/data/frame.h"
+#include "clv/stages/merge.h"
 [[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
 [[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
 [[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
@@ -11,7 +12,7 @@
 [[vk::binding(CLV_BIND_TABLE)]] StructuredBuffer<uint> table;
 [[vk::binding(CLV_BIND_SPLITS)]] StructuredBuffer<ClvSplit> splits;
 [[vk::binding(CLV_BIND_SLOTS)]] StructuredBuffer<ClvSlot> slots;
-[[vk::binding(CLV_BIND_DEPOSITS)]] RWStructuredBuffer<float4> deposits;
+[[vk::binding(CLV_BIND_HISTORY)]] RWStructuredBuffer<float4> history;
 [[vk::binding(CLV_BIND_BRICK_CURSORS)]] StructuredBuffer<uint> cursors;
 [[vk::binding(CLV_BIND_BRICK_BEGINS)]] StructuredBuffer<uint> begins;
 [[vk::binding(CLV_BIND_BRICK_RAYS)]] StructuredBuffer<uint> brickRays;
@@ -63,5 +64,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
     }
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
-    [unroll] for (uint row = 0u; row < stride / 4u; ++row) deposits[firstRow + row] = clvRecordRow(sum, channels, row);
+    [unroll] for (uint row = 0u; row < stride / 4u; ++row) {
+        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+    }
 }

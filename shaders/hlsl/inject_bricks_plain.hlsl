@@ -1,5 +1,6 @@
-// Eight lanes, a slot each, gather the rays of their brick; each loads every ray, so that no subgroups are needed.
+// Eight lanes, a slot each, gather the rays of their brick and merge them into the history; each loads every ray, so that no subgroups are needed.
 #include "clv/data/frame.h"
+#include "clv/stages/merge.h"
 [[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
 [[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
 [[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
@@ -10,7 +11,7 @@
 [[vk::binding(CLV_BIND_TABLE)]] StructuredBuffer<uint> table;
 [[vk::binding(CLV_BIND_SPLITS)]] StructuredBuffer<ClvSplit> splits;
 [[vk::binding(CLV_BIND_SLOTS)]] StructuredBuffer<ClvSlot> slots;
-[[vk::binding(CLV_BIND_DEPOSITS)]] RWStructuredBuffer<float4> deposits;
+[[vk::binding(CLV_BIND_HISTORY)]] RWStructuredBuffer<float4> history;
 [[vk::binding(CLV_BIND_BRICK_CURSORS)]] StructuredBuffer<uint> cursors;
 [[vk::binding(CLV_BIND_BRICK_BEGINS)]] StructuredBuffer<uint> begins;
 [[vk::binding(CLV_BIND_BRICK_RAYS)]] StructuredBuffer<uint> brickRays;
@@ -38,12 +39,18 @@ void main(uint3 thread : SV_DispatchThreadID) {
     uint list = place.halfIndex * level.brickCount + clvBrickOfCell(level.volume, at);
     uint end = cursors[list];
     ClvRecord sum = clvNoRecord();
-    for (uint i = begins[list]; i < end; ++i) {
-        ClvSegment segment = loadSegment(i);
-        float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
-        clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+    // By eights: some drivers end an invocation's loops without a word after 65535 rounds.
+    for (uint first = begins[list]; first < end; first += kClvBrickLanes) {
+        [unroll] for (uint k = 0u; k < kClvBrickLanes; ++k) {
+            ClvSegment segment = clvNoSegment();
+            if (first + k < end) segment = loadSegment(first + k);
+            float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
+            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+        }
     }
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
-    [unroll] for (uint row = 0u; row < stride / 4u; ++row) deposits[firstRow + row] = clvRecordRow(sum, channels, row);
+    [unroll] for (uint row = 0u; row < stride / 4u; ++row) {
+        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+    }
 }

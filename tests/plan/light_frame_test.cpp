@@ -82,7 +82,8 @@ TEST(LightFrame, hasTheStagesInTheirOrder) {
 TEST(LightFrame, gathersWholeCellsApartFromSplitOnes) {
     const Frame frame = lightFrame(smallSettings(InjectWay::bricks));
     EXPECT_EQ(passesOf(frame, "light"), (std::vector<std::string>{"rays", "trace", "clear 0", "count 0", "begin 0", "list 0", "inject 0",
-                                                                  "inject 0 split 1", "inject 0 split 3", "merge 0"}));
+                                                                  "inject 0 split 1", "inject 0 split 3"}));
+    EXPECT_FALSE(has(frame, "deposits 0")) << "what is gathered is merged at once";
 }
 
 TEST(LightFrame, beginsWithTheHostsRaysWhereThereAreNoLights) {

@@ -182,6 +182,68 @@ TEST_F(VulkanInject, isTheSameToTheLastBitInFixedPoint) {
     EXPECT_GT(total(first), 0.0);
 }
 
+// As many rays of a half as no loop of one round a ray would live through on every driver.
+TEST_F(VulkanInject, losesNothingWhereAllRaysCrossOneBrick) {
+    const Level level = openLevel();
+    const BrickSlots bricks = brickSlots(level);
+    ClvRay ray{};
+    ray.origin = level.volume.origin + vec3(0.1f, 0.25f, 0.25f) * level.volume.cellSize;
+    ray.direction = vec3(1.0f, 0.0f, 0.0f), ray.maxDistance = 0.8f * level.volume.cellSize, ray.flux = vec3(1.0f);
+    const std::vector<ClvRay> rays(100000, ray);
+    for (const InjectWay way : {InjectWay::bricks, InjectWay::bricksPlain}) {
+        LightFrameSettings settings = settingsFor(way, {kClvStorageCube, 1});
+        settings.rays = rays.size(), settings.halves = 1, settings.levels = {describeLevel(level, bricks)};
+        VulkanFrame frame(device, lightFrame(settings));
+        ClvFrame constants{};
+        constants.rayCount = std::uint32_t(rays.size()), constants.halves = 1;
+        frame.upload("frame", constants);
+        frame.upload("rays", std::span(rays));
+        frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f, 1.0f));
+        uploadLevel(frame, settings, 0, level, bricks);
+        frame.run("light");
+        std::vector<float> history(level.slots.size() * frameStride(settings));
+        frame.download("history 0", std::span(history));
+        // Light that travels along +x lights the side -x. Each of the additions rounds its sum.
+        const double expected = 0.8 * level.volume.cellSize;
+        EXPECT_NEAR(history[level.table[clvCellIndex(level.volume, ivec3(0))] * frameStride(settings) + 1], expected, double(rays.size()) * kUnit * expected) << int(way);
+    }
+}
+
+// Two frames of other rays, the second with a weight of a half: the history is the mean of both.
+TEST_F(VulkanInject, gathersIntoTheHistory) {
+    const Level level = openLevel();
+    const DepositLayout layout{kClvStorageCube9, 3};
+    const BrickSlots bricks = brickSlots(level);
+    std::vector<ClvRay> rays = testRays(level.volume, kRays);
+    const Expected first = expectedDeposits(level, layout, kClvInjectTrackLength, rays);
+    std::vector<ClvRay> reversed(rays.rbegin(), rays.rend());
+    const Expected second = expectedDeposits(level, layout, kClvInjectTrackLength, reversed);
+    for (const InjectWay way : {InjectWay::bricks, InjectWay::bricksPlain}) {
+        for (const ShaderLanguage language : kLanguages) {
+            LightFrameSettings settings = settingsFor(way, layout);
+            settings.levels = {describeLevel(level, bricks)};
+            VulkanFrame frame(device, lightFrame(settings), language);
+            ClvFrame constants{};
+            constants.rayCount = kRays, constants.halves = 2;
+            frame.upload("frame", constants);
+            uploadLevel(frame, settings, 0, level, bricks);
+            frame.upload("rays", std::span<const ClvRay>(rays));
+            frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f, kLargestFlux));
+            frame.run("light");
+            frame.upload("rays", std::span<const ClvRay>(reversed));
+            frame.upload("level 0", levelConstants(level, bricks, settings, 0.5f, kLargestFlux));
+            frame.run("light");
+            std::vector<float> history(first.sum.size());
+            frame.download("history 0", std::span(history));
+            for (std::size_t k = 0; k < history.size(); ++k) {
+                const double mean = 0.5 * (first.sum[k] + second.sum[k]), bound = first.bound[k] + second.bound[k] + 4.0 * kUnit * (std::abs(first.sum[k]) + std::abs(second.sum[k]));
+                ASSERT_NEAR(history[k] * (kRays / 2), mean, bound) << k;
+            }
+        }
+    }
+    EXPECT_EQ(device.messages(), std::vector<std::string>());
+}
+
 // All rays of a half through the same cell from side to side, with the largest flux: the most that a sum can be.
 TEST_F(VulkanInject, doesNotOverflowInFixedPoint) {
     const Level level = openLevel();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../data/bvh.h"
@@ -103,12 +104,12 @@ public:
             const std::string name = std::string(" ").append(std::to_string(l));
             const std::uint64_t record = frameStride(s_) * sizeof(float), records = s_.halves * level.slots;
             const auto constants = add("level" + name, CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host);
-            const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, records * record,
-                                      gathers(s_.inject) ? FrameSource::passes : FrameSource::zero, true);
             const auto history = add("history" + name, CLV_BIND_HISTORY, records * record, FrameSource::zero, true);
-            addInject(level, name, frame, constants, rays, deposits);
-            pass("merge" + name, s_.inject == InjectWay::fixedPoint ? "merge_fixed" : "merge", groupsFor(records * frameStride(s_) / 4),
-                 {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
+            if (gathers(s_.inject)) {
+                addGather(level, name, frame, constants, rays, history);
+            } else {
+                addInject(level, name, frame, constants, rays, history);
+            }
             reads.push_back({name, constants, history, level.lookupEntries});
         }
 
@@ -175,17 +176,23 @@ private:
         }
     }
 
-    void addInject(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t deposits) {
+    // Each ray adds to the sums of this frame, which are then merged and cleared.
+    void addInject(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t history) {
+        const bool fixed = s_.inject == InjectWay::fixedPoint;
+        const std::uint64_t bytes = frame_.buffers[history].bytes;
+        const auto [table, splits] = addTables(level, name);
+        const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, bytes, FrameSource::zero, true);
         Constants spec = recordConstants();
-        const auto table = add("table" + name, CLV_BIND_TABLE, level.cells * sizeof(uint), FrameSource::host);
-        // A buffer may not be empty, a level without splits is welcome.
-        const auto splits = add("splits" + name, CLV_BIND_SPLITS, std::max<std::uint64_t>(level.splits, 1) * sizeof(ClvSplit), FrameSource::host);
-        if (!gathers(s_.inject)) {
-            spec.push_back({CLV_SPEC_RULE, s_.rule});
-            pass("inject" + name, s_.inject == InjectWay::fixedPoint ? "inject_fixed" : "inject_float", groupsFor(s_.rays),
-                 {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
-            return;
-        }
+        spec.push_back({CLV_SPEC_RULE, s_.rule});
+        pass("inject" + name, fixed ? "inject_fixed" : "inject_float", groupsFor(s_.rays),
+             {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
+        pass("merge" + name, fixed ? "merge_fixed" : "merge", groupsFor(bytes / sizeof(vec4)),
+             {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
+    }
+
+    // Each slot adds up its rays and merges them at once.
+    void addGather(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t history) {
+        const auto [table, splits] = addTables(level, name);
         const ivec3 bricks = clvBrickCounts(level.volume);
         const std::uint64_t lists = s_.halves * std::uint64_t(bricks.x) * bricks.y * bricks.z, groups = level.groupEnds.back();
         const auto slots = add("slots" + name, CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
@@ -194,18 +201,24 @@ private:
         const auto list = add("brick rays" + name, CLV_BIND_BRICK_RAYS, frameListCapacity(s_, level.volume) * sizeof(uint), FrameSource::passes);
         const auto brickSlots = add("brick slots" + name, CLV_BIND_BRICK_SLOTS, groups * kClvBrickLanes * sizeof(uint), FrameSource::host);
         pass("clear" + name, "", uvec3(1), {write(cursors)});
-        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(cursors)});
+        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), readWrite(cursors)});
         pass("begin" + name, "brick_begin", groupsFor(lists), {uniform(frame), uniform(constants), readWrite(cursors), write(begins)});
-        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), read(rays), readWrite(cursors), write(list)});
+        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), readWrite(cursors), write(list)});
         // A pass for each number of splits, so that slots that are whole cells carry no planes.
         for (uint depth = 0, first = 0; depth <= uint(kClvMostSplits); first = level.groupEnds[depth++]) {
             if (level.groupEnds[depth] == first) continue;
-            Constants deep = spec;
+            Constants deep = recordConstants();
             deep.push_back({CLV_SPEC_DEPTH, depth});
             pass("inject" + name + (depth == 0 ? "" : " split " + std::to_string(depth)), s_.inject == InjectWay::bricks ? "inject_bricks" : "inject_bricks_plain",
                  groupsFor(s_.halves * (level.groupEnds[depth] - first) * kClvBrickLanes),
-                 {uniform(frame), uniform(constants), texel(rays), read(cursors), read(begins), read(list), read(brickSlots), read(slots), read(table), read(splits), write(deposits)}, deep);
+                 {uniform(frame), uniform(constants), texel(rays), read(cursors), read(begins), read(list), read(brickSlots), read(slots), read(table), read(splits), readWrite(history)}, deep);
         }
+    }
+
+    std::pair<std::uint32_t, std::uint32_t> addTables(const LightFrameLevel& level, const std::string& name) {
+        const auto table = add("table" + name, CLV_BIND_TABLE, level.cells * sizeof(uint), FrameSource::host);
+        // A buffer may not be empty, a level without splits is welcome.
+        return {table, add("splits" + name, CLV_BIND_SPLITS, std::max<std::uint64_t>(level.splits, 1) * sizeof(ClvSplit), FrameSource::host)};
     }
 
     Constants recordConstants() const {
