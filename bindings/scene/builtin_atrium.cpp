@@ -175,25 +175,6 @@ void addAtriumCamera(SceneBuilder& builder, const std::string& name, const glm::
     builder.addCamera(cameraLookingAt(name, position, target, yfov), position);
 }
 
-void turn(Scene& scene, const glm::dmat3& rotation) {
-    auto turned = [&](const glm::vec3& v) { return glm::vec3(rotation * glm::dvec3(v)); };
-    for (glm::vec3& position : scene.positions) position = turned(position);
-    for (NamedLight& named : scene.lights) {
-        named.light.position = turned(named.light.position);
-        named.light.direction = turned(named.light.direction);
-    }
-    for (Camera& camera : scene.cameras) {
-        camera.position = turned(camera.position);
-        camera.forward = turned(camera.forward);
-        camera.up = turned(camera.up);
-    }
-    scene.bounds = {scene.positions.front(), scene.positions.front()};
-    for (const glm::vec3& position : scene.positions) {
-        scene.bounds.lo = glm::min(scene.bounds.lo, position);
-        scene.bounds.hi = glm::max(scene.bounds.hi, position);
-    }
-}
-
 }  // namespace
 
 Scene makeAtrium() {
@@ -221,7 +202,7 @@ Scene makeAtriumTurned() {
     scene.name = "atrium_turned";
     const glm::dmat4 aboutY = glm::rotate(glm::dmat4(1.0), glm::radians(30.0), glm::dvec3(0, 1, 0));
     const glm::dmat4 aboutX = glm::rotate(glm::dmat4(1.0), glm::radians(20.0), glm::dvec3(1, 0, 0));
-    turn(scene, glm::dmat3(aboutX * aboutY));
+    turnScene(scene, glm::dmat3(aboutX * aboutY));
     return scene;
 }
 

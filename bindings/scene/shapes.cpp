@@ -109,4 +109,23 @@ void addSphereInside(SceneBuilder& builder, double radius, int levels, std::uint
     for (const glm::uvec3& f : mesh.faces) builder.addTriangle(first + f.x, first + f.z, first + f.y, material);
 }
 
+void turnScene(Scene& scene, const glm::dmat3& rotation) {
+    auto turned = [&](const glm::vec3& v) { return glm::vec3(rotation * glm::dvec3(v)); };
+    for (glm::vec3& position : scene.positions) position = turned(position);
+    for (NamedLight& named : scene.lights) {
+        named.light.position = turned(named.light.position);
+        named.light.direction = turned(named.light.direction);
+    }
+    for (Camera& camera : scene.cameras) {
+        camera.position = turned(camera.position);
+        camera.forward = turned(camera.forward);
+        camera.up = turned(camera.up);
+    }
+    scene.bounds = {scene.positions.front(), scene.positions.front()};
+    for (const glm::vec3& position : scene.positions) {
+        scene.bounds.lo = glm::min(scene.bounds.lo, position);
+        scene.bounds.hi = glm::max(scene.bounds.hi, position);
+    }
+}
+
 }  // namespace clv

@@ -1,4 +1,4 @@
-// Solids that the built-in scenes are made of.
+// Solids that scenes made here consist of, and a turn of the whole.
 #pragma once
 #include <functional>
 #include <vector>
@@ -28,5 +28,8 @@ void addBox(SceneBuilder& builder, const glm::dvec3& center, const glm::dvec3& x
 // A sphere around the origin seen from inside: an icosahedron whose faces were split `levels` times into four, scaled so that its
 // area is that of the sphere, 4 pi radius^2.
 void addSphereInside(SceneBuilder& builder, double radius, int levels, std::uint32_t material);
+
+// Turns all of a scene around the origin of its positions.
+void turnScene(Scene& scene, const glm::dmat3& rotation);
 
 }  // namespace clv
