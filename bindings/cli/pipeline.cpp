@@ -254,7 +254,6 @@ private:
         std::size_t round = options_.frames > 1 ? std::size_t((budget + options_.frames - 1) / options_.frames) : kFirstRound;
         if (automatic_ && done < judged) round = std::size_t(std::min<std::uint64_t>(round, judged));
         std::uint64_t sinceRsm = 0;
-        bool settled = false;
         const double timeForThis = options_.allBounces ? 0.5 * options_.seconds : options_.seconds;
         for (std::uint32_t pass = 0; done < budget; ++pass) {
             const double before = progress.seconds();
@@ -274,13 +273,10 @@ private:
             const double now = progress.seconds();
             // With a budget of time, as many rays are still to come as the pace so far promises.
             const double target = options_.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
-            if (automatic_ && !settled) {
-                settled = double(done) >= 0.25 * target;
-                judge(target, settled);
-            }
+            if (resolutions_.size() > 1) judge(target, double(done) >= 0.25 * target);
             if (options_.seconds > 0.0 && now + (now - before) > timeForThis) break;
             progress.update(options_.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
-            if (options_.frames <= 1) round = settled ? kLargestRound : std::min(2 * round, kLargestRound);
+            if (options_.frames <= 1) round = settled_ || !automatic_ ? kLargestRound : std::min(2 * round, kLargestRound);
         }
         sent_ /= double(done), sentOn_ /= double(done);
         for (const Volume& volume : lighting_->volumes()) report_.bytes += volume.bytes(), report_.slots += volume.level().slots.size();
@@ -307,13 +303,15 @@ private:
         std::rotate(mix_.begin() + std::ptrdiff_t(l), mix_.begin() + std::ptrdiff_t(l) + 1, mix_.end());
     }
 
-    // Chooses the levels to show when all rays are in, lets a finer level join while the finest one is the best, and drops coarse ones
-    // that no longer count; once the choice is settled, all that do not count.
+    // Foretells the errors once `targetRays` are in. Until the choice is `settled` a finer level joins while the finest one is the best;
+    // then levels that err clearly more are dropped.
     void judge(double targetRays, bool settled) {
+        LevelErrors errors;
+        std::vector<double> factor;
         for (;;) {
-            std::vector<double> factor;
             clock_.time("choose", [&] {
                 estimates_.resize(resolutions_.size());
+                factor.clear();
                 for (std::size_t l = 0; l < resolutions_.size(); ++l) {
                     const Volume& volume = lighting_->volumes()[l];
                     estimate(volume, lookups_[l].judges, estimates_[l]);
@@ -321,18 +319,18 @@ private:
                     const double missed = double(report_.rays - pilots_) - volume.rays();
                     factor.push_back(std::max(1.0, (targetRays - missed) / volume.rays()));
                 }
-                mix_ = chooseLevels(estimates_, factor);
+                errors = judgeLevels(estimates_).withRays(factor);
             });
-            const LevelErrors later = judgeLevels(estimates_).withRays(factor);
-            const bool finestWins = bestLevel(later) == later.count - 1;
             const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), resolutions_.back());
-            if (!finestWins || next == std::end(kResolutions)) break;
+            if (settled_ || bestLevel(errors) + 1 < errors.count || next == std::end(kResolutions)) break;
             addLevel(*next);
             inject(*lighting_, lighting_->volumes().back());
         }
-        for (std::size_t l = resolutions_.size(); l-- > 0;) {
-            const bool farBelow = l + 1 < resolutions_.size() && mix_[l + 1] == 0.0 && resolutions_.size() > 2;
-            if (mix_[l] == 0.0 && (settled || farBelow)) removeLevel(l);
+        clock_.time("choose", [&] { mix_ = chooseLevels(estimates_, factor); });
+        settled_ = settled_ || settled;
+        if (!settled_) return;
+        for (int l = errors.count; l-- > 0;) {
+            if (mix_[l] == 0.0 && !staysInPlay(errors, l)) removeLevel(std::size_t(l));
         }
     }
 
@@ -496,6 +494,7 @@ private:
     std::unique_ptr<StillLighting> lighting_;
     std::vector<int> resolutions_;
     LevelMix mix_{};
+    bool settled_ = false;  // no further level joins
     std::vector<Lookups> lookups_;
     std::vector<HalfEstimates> estimates_;
     std::size_t pilots_ = 0;

@@ -40,7 +40,8 @@ TEST(Resolution, halvesTellBiasFromNoise) {
         // The mean of two halves has half the variance of one.
         EXPECT_NEAR(errors.noise[l][l], noise[l] * noise[l] / 2.0, kSlack) << l;
         EXPECT_NEAR(errors.bias[l][l], bias[l] * bias[l], kSlack) << l;
-        EXPECT_NEAR(errors.meanSquare(l), errors.bias[l][l] + errors.noise[l][l], 1e-12);
+        const LevelMix alone = [&] { LevelMix mix{}; mix[l] = 1.0; return mix; }();
+        EXPECT_NEAR(errors.meanSquare(alone), errors.bias[l][l] + errors.noise[l][l], 1e-12);
     }
     EXPECT_NEAR(errors.bias[0][1], 0.03, kSlack);
     EXPECT_NEAR(errors.noise[0][1], 0.0, kSlack);
@@ -70,10 +71,36 @@ LevelErrors diagonal(std::vector<double> bias, std::vector<double> noise) {
     return errors;
 }
 
+// Levels that err the same way, W/m^2, each by an amount of its own, against a finest one without bias.
+LevelErrors alike(std::vector<double> bias, std::vector<double> noise) {
+    LevelErrors errors = diagonal(std::vector<double>(bias.size(), 0.0), std::move(noise));
+    for (int l = 0; l < errors.count; ++l)
+        for (int m = 0; m < errors.count; ++m) errors.bias[l][m] = bias[l] * bias[m];
+    return errors;
+}
+
 TEST(Resolution, theLevelThatErrsLeastIsTheBest) {
-    EXPECT_EQ(bestLevel(diagonal({4.0, 1.0, 0.0}, {0.1, 1.0, 3.0})), 1);
-    EXPECT_EQ(bestLevel(diagonal({4.0, 1.0, 0.0}, {0.1, 1.0, 1.0})), 2);
-    EXPECT_EQ(bestLevel(diagonal({1.0, 1.0, 0.0}, {0.1, 1.0, 3.0})), 0);
+    EXPECT_EQ(bestLevel(alike({2.0, 1.0, 0.0}, {0.1, 1.0, 3.0})), 1);
+    EXPECT_EQ(bestLevel(alike({2.0, 1.0, 0.0}, {0.1, 1.0, 1.5})), 2);
+    EXPECT_EQ(bestLevel(alike({0.5, 0.2, 0.0}, {0.1, 1.0, 3.0})), 0);
+}
+
+TEST(Resolution, noiseOfAFinerLevelLeavesTheBiasBetweenCoarseOnesAlone) {
+    const std::vector<HalfEstimates> two = {levelWith(0.3f, 0.1f, 10), levelWith(0.1f, 0.2f, 20)};
+    const std::vector<HalfEstimates> three = {two[0], two[1], levelWith(0.0f, 40.0f, 30)};
+    EXPECT_NEAR(judgeLevels(three).biasBetween(0, 1), judgeLevels(two).biasBetween(0, 1), 1e-3);
+    EXPECT_NEAR(judgeLevels(two).biasBetween(0, 1), 0.2 * 0.2, 0.005);
+}
+
+TEST(Resolution, neighboursThatErrLittleMoreStayInPlay) {
+    // The second level is the best; the first errs four times as much, the third half more, and the last is no neighbour.
+    const LevelErrors errors = alike({2.0, 0.0, 0.0, 0.0}, {0.1, 1.0, 1.5, 9.0});
+    ASSERT_EQ(bestLevel(errors), 1);
+    EXPECT_FALSE(staysInPlay(errors, 0));
+    EXPECT_TRUE(staysInPlay(errors, 1));
+    EXPECT_TRUE(staysInPlay(errors, 2));
+    EXPECT_FALSE(staysInPlay(errors, 3));
+    EXPECT_TRUE(staysInPlay(alike({1.0, 0.0}, {0.1, 1.0}), 0));
 }
 
 TEST(Resolution, independentLevelsMixByTheInverseOfTheirErrors) {

@@ -13,8 +13,9 @@ using Tracer = std::function<void(std::span<ClvRay>)>;
 
 class FrameRays {
 public:
-    // Each half has a sequence of its own, from `seed`. originOffset: m; rays start this far above their surface.
-    FrameRays(const VolumeParts& parts, uint seed, float originOffset) : parts_(parts), seed_(seed), originOffset_(originOffset) {}
+    // All halves share one sequence, from `seed`, so that together they are spread as evenly as a frame without halves.
+    // originOffset: m; rays start this far above their surface.
+    FrameRays(const VolumeParts& parts, uint seed, float originOffset) : parts_(parts), seed_(clvHashCombine(seed, 0u)), originOffset_(originOffset) {}
 
     // Takes and touches the memory of `count` rays, so that no frame of as many has to.
     void reserve(std::size_t count) {
@@ -28,15 +29,9 @@ public:
         perPart_ = (count + parts - 1) / parts;
         rays_.resize(perPart_ * parts);
         forPieces(parallelFor, [&](std::size_t first, std::size_t last) {
-            // A piece may reach from one half into the next.
-            while (first < last) {
-                const std::size_t half = first / perHalf(), end = std::min(last, (half + 1) * perHalf());
-                makeRays(sampler, nextIndex_ + uint(first - half * perHalf()), clvHashCombine(seed_, uint(half)), originOffset_,
-                         std::span(rays_).subspan(first, end - first));
-                first = end;
-            }
+            makeRays(sampler, nextIndex_ + uint(first), seed_, originOffset_, std::span(rays_).subspan(first, last - first));
         });
-        nextIndex_ += uint(perHalf());
+        nextIndex_ += uint(rays_.size());
     }
 
     // Kills the rays that no volume can notice: those that would miss all of them even if nothing stood in their way.

@@ -4,6 +4,8 @@
 //   noise:  E[(A_l - B_l) (A_m - B_m)] / 4            is the covariance of the shown values of levels l and m,
 //   bias:   E[(A_l - A_f) (B_m - B_f)]                is the product of their biases against the finest level f; A and B are
 //                                                     independent, so noise does not enter it.
+// Halves that are stretches of one low-discrepancy sequence are not quite independent: what they share out evenly makes the noise look
+// a little larger and the bias smaller by as much, so that a coarser level is preferred where two are nearly level.
 // The mean squared error of sum(c_l * level l) with sum(c) = 1 is c' (bias + noise) c. With more rays of the same kind the noise falls
 // as their number, so errors can be foretold.
 //
@@ -39,7 +41,10 @@ struct LevelErrors {
             for (int m = 0; m < count; ++m) sum += mix[l] * mix[m] * (bias[l][m] + noise[l][m]);
         return sum;
     }
-    double meanSquare(int level) const { return bias[level][level] + noise[level][level]; }
+    // Of the difference between the biases of two levels. Only their own noise enters it, not that of levels finer than both.
+    double biasBetween(int l, int m) const { return bias[l][l] + bias[m][m] - 2.0 * bias[l][m]; }
+    // The mean squared error of a level over that of the next finer one, the bias that both may share left aside.
+    double overNextFiner(int l) const { return (biasBetween(l, l + 1) + noise[l][l]) / noise[l + 1][l + 1]; }
 
     // The same, if level l had factor[l] times as many rays.
     LevelErrors withRays(std::span<const double> factor) const {
@@ -126,12 +131,21 @@ inline LevelMix bestMix(const LevelErrors& errors) {
     return best;
 }
 
+// Climbs from the coarsest level as long as the next finer one errs less. Comparing neighbours keeps the noise of levels that are far
+// too fine out of the judgement of coarse ones.
 inline int bestLevel(const LevelErrors& errors) {
     int best = 0;
-    for (int l = 1; l < errors.count; ++l) {
-        if (errors.meanSquare(l) < errors.meanSquare(best)) best = l;
-    }
+    while (best + 1 < errors.count && errors.overNextFiner(best) > 1.0) ++best;
     return best;
+}
+
+// Whether a level is the best one or a neighbour of it that errs little more, so that more rays may yet turn the judgement.
+inline bool staysInPlay(const LevelErrors& errors, int level) {
+    constexpr double kLittleMore = 2.0;  // times the mean squared error
+    const int best = bestLevel(errors);
+    if (level == best + 1) return errors.overNextFiner(best) * kLittleMore > 1.0;
+    if (level == best - 1) return errors.overNextFiner(level) < kLittleMore;
+    return level == best;
 }
 
 // What to show: the best level, or the best mix where that is better by a clear margin. `factor`: see LevelErrors::withRays.
