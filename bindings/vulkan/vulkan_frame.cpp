@@ -240,7 +240,16 @@ struct VulkanFrame::Impl {
 
     void submitAndWait() {
         device.queue.submit(vk::SubmitInfo({}, {}, submission), *fence);
-        if (device.device.waitForFences(*fence, true, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("Vulkan: the device does not answer");
+        try {
+            if (device.device.waitForFences(*fence, true, UINT64_MAX) != vk::Result::eSuccess) throw std::runtime_error("Vulkan: the device does not answer");
+        } catch (...) {
+            // The work may still run, and what it uses must outlive it; a device that is truly lost says so again at once.
+            try {
+                device.device.waitIdle();
+            } catch (const vk::SystemError&) {
+            }
+            throw;
+        }
         device.device.resetFences(*fence);
     }
 
