@@ -36,7 +36,7 @@ ParallelFor parallelForOf(const CommonOptions& options) {
 }
 
 Report startReport(const CLI::App& command, const CommonOptions& options) {
-    if (options.backend == "vulkan") throw InputError("--backend vulkan: this build has no Vulkan back end; expected auto or cpu");
+    if (options.backend == "vulkan") throw InputError("--backend vulkan: commands compute on the CPU alone so far; expected auto or cpu");
     return {{"command", command.get_name()}, {"backend", "cpu"}, {"threads", threadCount(options)}, {"seed", options.seed}};
 }
 
