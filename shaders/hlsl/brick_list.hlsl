@@ -1,28 +1,10 @@
 // Writes each ray into the lists of the bricks that it crosses.
-#include "clv/data/frame.h"
-#include "clv/stages/bricks.h"
-#include "clv/stages/inject.h"
+#include "brick_walk.hlsli"
 
-[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
-[[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
-[[vk::binding(CLV_BIND_RAYS)]] Buffer<float4> rays;
-[[vk::binding(CLV_BIND_BRICK_CURSORS)]] RWStructuredBuffer<uint> cursors;
 [[vk::binding(CLV_BIND_BRICK_RAYS)]] RWStructuredBuffer<uint> brickRays;
 
-[numthreads(CLV_GROUP_SIZE, 1, 1)]
-void main(uint3 thread : SV_DispatchThreadID) {
-    uint i = clvItem(thread);
-    if (i >= frame.rayCount) return;
-    uint first = i / (frame.rayCount / frame.halves) * level.brickCount;
-    ClvVolume bricks = clvBrickVolume(level.volume);
-    int row = int(3u * i);
-    ClvRay ray = clvRayFromRows(rays.Load(row), rays.Load(row + 1), rays.Load(row + 2));
-    ClvWalk walk = clvWalkBegin(bricks, ray);
-    while (walk.running == 1) {
-        ClvCrossing crossing = clvWalkStep(walk, ray.direction);
-        if (!(crossing.tEnd > crossing.tBegin)) continue;
-        uint place;
-        InterlockedAdd(cursors[first + clvCellIndex(bricks, crossing.cell)], 1u, place);
-        brickRays[place] = i;
-    }
+void visitBrick(uint list, uint ray) {
+    uint place;
+    InterlockedAdd(cursors[list], 1u, place);
+    brickRays[place] = ray;
 }

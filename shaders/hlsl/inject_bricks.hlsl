@@ -1,70 +1,17 @@
-// Eight lanes, a slot each, gather the rays of their brick and merge them into the history: each lane loads one ray, and shuffles share it. Subgroups have a multiple of
-// eight lanes.
-#include "clv/data/frame.h"
-#include "clv/stages/merge.h"
-[[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
-[[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
-[[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
-[[vk::constant_id(CLV_SPEC_DEPTH)]] const uint depth = 0u;
-[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
-[[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
-[[vk::binding(CLV_BIND_RAYS)]] Buffer<float4> rays;
-[[vk::binding(CLV_BIND_TABLE)]] StructuredBuffer<uint> table;
-[[vk::binding(CLV_BIND_SPLITS)]] StructuredBuffer<ClvSplit> splits;
-[[vk::binding(CLV_BIND_SLOTS)]] StructuredBuffer<ClvSlot> slots;
-[[vk::binding(CLV_BIND_HISTORY)]] RWStructuredBuffer<float4> history;
-[[vk::binding(CLV_BIND_BRICK_CURSORS)]] StructuredBuffer<uint> cursors;
-[[vk::binding(CLV_BIND_BRICK_BEGINS)]] StructuredBuffer<uint> begins;
-[[vk::binding(CLV_BIND_BRICK_RAYS)]] StructuredBuffer<uint> brickRays;
-[[vk::binding(CLV_BIND_BRICK_SLOTS)]] StructuredBuffer<uint> brickSlots;
+// Slots gather the rays of their brick: each of the eight lanes loads one ray, and shuffles share it. Subgroups have a multiple of eight
+// lanes.
+#include "inject_bricks.hlsli"
 
-ClvSplit clvReadSplit(uint i) { return splits[i]; }
-#include "clv/stages/gather.h"
+ClvSegment ownSegment(uint first, uint lane, uint end) { return loadSegment(first + lane, end); }
 
-ClvSegment loadSegment(uint i) {
-    int row = int(3u * brickRays[i]);
-    ClvRay ray = clvRayFromRows(rays.Load(row), rays.Load(row + 1), rays.Load(row + 2));
-    return clvSegmentFromRay(level.volume, channels, ray);
-}
-
-// What another lane of the subgroup has loaded.
-ClvSegment segmentOfLane(ClvSegment mine, uint lane) {
+ClvSegment segmentOfRay(uint first, uint k, uint end, uint lane, ClvSegment own) {
+    uint from = WaveGetLaneIndex() - lane + k;
     ClvSegment segment;
-    segment.origin = WaveReadLaneAt(mine.origin, lane);
-    segment.tEnd = WaveReadLaneAt(mine.tEnd, lane);
-    segment.inverse = WaveReadLaneAt(mine.inverse, lane);
-    segment.start = WaveReadLaneAt(mine.start, lane);
-    segment.direction = WaveReadLaneAt(mine.direction, lane);
-    segment.flux = WaveReadLaneAt(mine.flux, lane);
+    segment.origin = WaveReadLaneAt(own.origin, from);
+    segment.tEnd = WaveReadLaneAt(own.tEnd, from);
+    segment.inverse = WaveReadLaneAt(own.inverse, from);
+    segment.start = WaveReadLaneAt(own.start, from);
+    segment.direction = WaveReadLaneAt(own.direction, from);
+    segment.flux = WaveReadLaneAt(own.flux, from);
     return segment;
-}
-
-[numthreads(CLV_GROUP_SIZE, 1, 1)]
-void main(uint3 thread : SV_DispatchThreadID) {
-    ClvGatherPlace place = clvGatherPlace(level, depth, clvItem(thread));
-    if (place.halfIndex >= frame.halves) return;  // the eight lanes of a group leave together
-    uint lane = place.member % kClvBrickLanes;
-    uint firstLane = WaveGetLaneIndex() - lane;
-    uint slot = brickSlots[place.member];
-    uint firstSlot = brickSlots[place.member - lane];
-    uint cell = slots[slot == kClvNoSlot ? firstSlot : slot].cell;
-    int3 at = clvCellFromIndex(level.volume, cell);
-    ClvGatherSlot mine = clvGatherSlot(slot, at, depth > 0u ? table[cell] : slot, depth);
-    uint list = place.halfIndex * level.brickCount + clvBrickOfCell(level.volume, at);
-    uint end = cursors[list];
-    ClvRecord sum = clvNoRecord();
-    for (uint first = begins[list]; first < end; first += kClvBrickLanes) {
-        ClvSegment loaded = clvNoSegment();
-        if (first + lane < end) loaded = loadSegment(first + lane);
-        [unroll] for (uint k = 0u; k < kClvBrickLanes; ++k) {
-            ClvSegment segment = segmentOfLane(loaded, firstLane + k);
-            float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
-            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
-        }
-    }
-    if (slot == kClvNoSlot) return;
-    uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
-    [unroll] for (uint row = 0u; row < stride / 4u; ++row) {
-        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
-    }
 }

@@ -1,49 +1,14 @@
 // Each ray adds to the slots that it crosses, by additions of floats that are tried until nobody else came in between.
-#include "clv/data/frame.h"
-#include "clv/stages/inject.h"
-#include "clv/stages/record.h"
-[[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
-[[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
-[[vk::constant_id(CLV_SPEC_RULE)]] const uint rule = 0u;
-[[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
-[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
-[[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
-[[vk::binding(CLV_BIND_RAYS)]] StructuredBuffer<ClvRay> rays;
-[[vk::binding(CLV_BIND_TABLE)]] StructuredBuffer<uint> table;
-[[vk::binding(CLV_BIND_SPLITS)]] StructuredBuffer<ClvSplit> splits;
+#include "inject_rays.hlsli"
+
 [[vk::binding(CLV_BIND_DEPOSITS)]] RWStructuredBuffer<uint> deposits;  // bits of floats
 
-ClvSplit clvReadSplit(uint i) { return splits[i]; }
-#include "clv/stages/find_slot.h"
-
-void addAtomically(uint index, float value) {
+void addDeposit(uint index, float value) {
+    if (value == 0.0) return;
     uint expected;
     uint found = deposits[index];
     do {
         expected = found;
         InterlockedCompareExchange(deposits[index], expected, asuint(asfloat(expected) + value), found);
     } while (found != expected);
-}
-
-[numthreads(CLV_GROUP_SIZE, 1, 1)]
-void main(uint3 thread : SV_DispatchThreadID) {
-    uint i = clvItem(thread);
-    if (i >= frame.rayCount) return;
-    uint halfIndex = i / (frame.rayCount / frame.halves);
-    ClvRay ray = rays[i];
-    ClvRecord record = clvRecordOfRay(storage, channels, ray);
-    uint values = clvCoefficientCount(storage) * channels;
-    ClvWalk walk = clvWalkBegin(level.volume, ray);
-    while (walk.running == 1) {
-        ClvCrossing crossing = clvWalkStep(walk, ray.direction);
-        float weight = clvCrossingWeight(rule, crossing, level.volume.cellSize);
-        uint entry = table[clvCellIndex(level.volume, crossing.cell)];
-        if (entry == kClvNoSlot || !(weight > 0.0)) continue;
-        float middle = 0.5 * (crossing.tBegin + crossing.tEnd) * level.volume.cellSize;
-        uint first = (halfIndex * level.slotCount + clvSlotAtPosition(entry, ray.origin + ray.direction * middle)) * stride;
-        for (uint k = 0u; k < values; ++k) {
-            float value = clvRecordValue(record, channels, k) * weight;
-            if (value != 0.0) addAtomically(first + k, value);
-        }
-    }
 }

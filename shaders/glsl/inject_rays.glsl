@@ -1,0 +1,39 @@
+// Body of inject_float and inject_fixed: each ray adds to the slots that it crosses. The entry point defines addDeposit.
+#include "clv/data/frame.h"
+#include "clv/stages/inject.h"
+#include "clv/stages/record.h"
+layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
+layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
+layout(constant_id = CLV_SPEC_RULE) const uint rule = 0u;
+layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
+layout(local_size_x = CLV_GROUP_SIZE) in;
+layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
+layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
+layout(std430, binding = CLV_BIND_RAYS) readonly buffer Rays { ClvRay rays[]; };
+layout(std430, binding = CLV_BIND_TABLE) readonly buffer Table { uint table[]; };
+layout(std430, binding = CLV_BIND_SPLITS) readonly buffer Splits { ClvSplit splits[]; };
+
+ClvSplit clvReadSplit(uint i) { return splits[i]; }
+#include "clv/stages/find_slot.h"
+
+// Adds to one number of a record, W m.
+void addDeposit(uint index, float value);
+
+void main() {
+    uint i = clvItem(gl_GlobalInvocationID);
+    if (i >= frame.rayCount) return;
+    uint halfIndex = i / (frame.rayCount / frame.halves);
+    ClvRay ray = rays[i];
+    ClvRecord record = clvRecordOfRay(storage, channels, ray);
+    uint values = clvCoefficientCount(storage) * channels;
+    ClvWalk walk = clvWalkBegin(level.volume, ray);
+    while (walk.running == 1) {
+        ClvCrossing crossing = clvWalkStep(walk, ray.direction);
+        float weight = clvCrossingWeight(rule, crossing, level.volume.cellSize);
+        uint entry = table[clvCellIndex(level.volume, crossing.cell)];
+        if (entry == kClvNoSlot || !(weight > 0.0)) continue;
+        float middle = 0.5 * (crossing.tBegin + crossing.tEnd) * level.volume.cellSize;
+        uint first = (halfIndex * level.slotCount + clvSlotAtPosition(entry, ray.origin + ray.direction * middle)) * stride;
+        for (uint k = 0u; k < values; ++k) addDeposit(first + k, clvRecordValue(record, channels, k) * weight);
+    }
+}
