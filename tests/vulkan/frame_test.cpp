@@ -7,7 +7,6 @@
 #include <vulkan/vulkan.h>
 
 #include "bindings/vulkan/vulkan_frame.h"
-#include "support/allocation_count.h"
 #include "vulkan/rays_frame.h"
 #include "vulkan/small_executor.h"
 #include "vulkan/watched_vulkan.h"
@@ -98,43 +97,6 @@ TEST(VulkanFrame, takesUploadsWithTheRunWhereTheHostDoesNotReachTheDevicesMemory
         EXPECT_EQ(device.messages(), std::vector<std::string>());
     }
     watchVulkan();
-}
-
-TEST(VulkanFrame, createsNothingInASteadyFrame) {
-    const RaysFrame scene;
-    for (const bool separate : {false, true}) {
-        WatchedVulkan& watched = watchVulkan();
-        watched.separateMemory = separate;
-        VulkanDevice device({.loader = watchedLoader()});
-        VulkanFrame run(device, scene.frame);
-        std::vector<ClvRay> rays(RaysFrame::kRays);
-        const auto frame = [&] {
-            scene.uploadTo(run);
-            run.run({"clear", "light"});
-            run.download("rays", std::span(rays));
-        };
-        frame();
-        const int before = creations(watched);
-        EXPECT_GT(before, 10);
-        for (int i = 0; i < 3; ++i) frame();
-        EXPECT_EQ(creations(watched), before);
-    }
-    watchVulkan();
-}
-
-TEST(VulkanFrame, takesNothingFromTheHeapInASteadyFrame) {
-    const RaysFrame scene;
-    VulkanDevice device;
-    VulkanFrame run(device, scene.frame);
-    std::vector<ClvRay> rays(RaysFrame::kRays);
-    std::size_t before = 0;
-    for (int i = 0; i < 4; ++i) {
-        if (i == 1) before = allocationCount();
-        scene.uploadTo(run);
-        run.run({"clear", "light"});
-        run.download("rays", std::span(rays));
-    }
-    EXPECT_EQ(allocationCount() - before, 0u);
 }
 
 TEST(VulkanFrame, takesTheMemoryThatTheFrameStates) {

@@ -1,6 +1,7 @@
 // A small frame that runs one shader: rays from a made-up map.
 #ifndef CLV_TESTS_VULKAN_RAYS_FRAME_H
 #define CLV_TESTS_VULKAN_RAYS_FRAME_H
+#include <span>
 #include <vector>
 
 #include "clv/data/frame.h"

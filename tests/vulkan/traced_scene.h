@@ -18,7 +18,7 @@ struct TracedScene {
     std::vector<ClvLight> lights;
     ClvFrame constants{};
     LightFrameSettings settings;
-    VulkanDevice device{{.device = "", .validate = true}};
+    VulkanDevice device{{.device = "", .floatAtomics = true, .validate = true}};
 
     TracedScene(Scene source, std::uint32_t side, std::uint32_t rays, bool keepHits)
         : scene(std::move(source)), embree(scene), bvh(buildBvh(scene)), rows(surfaceRowsOf(scene)) {
@@ -33,6 +33,18 @@ struct TracedScene {
 
     SceneReader reader() const { return {bvh, rows}; }
 
+    void uploadScene(VulkanFrame& vulkan) const {
+        vulkan.upload("frame", constants);
+        vulkan.upload("lights", std::span<const ClvLight>(lights));
+        vulkan.upload("bvh boxes", std::span<const vec4>(bvh.boxes));
+        vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
+        vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
+        vulkan.upload("surfaces", std::span<const vec4>(rows.surfaces));
+        if (settings.textureTexels == 0) return;
+        vulkan.upload("texture rows", std::span<const uvec4>(rows.textureRows));
+        vulkan.upload("texture texels", std::span<const vec4>(rows.textureTexels));
+    }
+
     struct Results {
         std::vector<ClvRsmTexel> texels;
         std::vector<float> sums;
@@ -43,16 +55,7 @@ struct TracedScene {
         Frame frame = lightFrame(settings);
         for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || buffer.source == FrameSource::passes;
         VulkanFrame vulkan(device, frame, language);
-        vulkan.upload("frame", constants);
-        vulkan.upload("lights", std::span<const ClvLight>(lights));
-        vulkan.upload("bvh boxes", std::span<const vec4>(bvh.boxes));
-        vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
-        vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
-        vulkan.upload("surfaces", std::span<const vec4>(rows.surfaces));
-        if (settings.textureTexels > 0) {
-            vulkan.upload("texture rows", std::span<const uvec4>(rows.textureRows));
-            vulkan.upload("texture texels", std::span<const vec4>(rows.textureTexels));
-        }
+        uploadScene(vulkan);
         vulkan.run("rsm");
         vulkan.run("light");
         Results results;
