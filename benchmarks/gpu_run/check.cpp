@@ -1,0 +1,92 @@
+#include "benchmarks/gpu_run/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "benchmarks/gpu_run/stored.h"
+#include "benchmarks/gpu_run/ways.h"
+#include "bindings/vulkan/vulkan_frame.h"
+
+namespace clv {
+namespace {
+
+// What the host reads back, a vector for each check.
+using Outputs = std::vector<std::vector<float>>;
+
+Outputs runCase(VulkanDevice& device, const StoredCase& stored, InjectWay way, ShaderLanguage language) {
+    LightFrameSettings settings = stored.settings;
+    settings.inject = way;
+    Frame frame = lightFrame(settings);
+    for (const StoredCheck& check : stored.checks) frame.buffers.at(frame.bufferIndex(check.buffer)).readBack = true;
+    VulkanFrame run(device, frame, language);
+    for (const StoredBuffer& buffer : stored.buffers) {
+        if (frame.bufferIndex(buffer.name) < frame.buffers.size()) run.upload(buffer.name, std::span(buffer.bytes));
+    }
+    for (const std::string& step : stored.steps) run.run(step);
+    Outputs outputs;
+    for (const StoredCheck& check : stored.checks) run.download(check.buffer, std::span(outputs.emplace_back(check.expected.size())));
+    return outputs;
+}
+
+// How far the numbers are from what is expected, in words; `passed` becomes false where that is too far.
+std::string compare(const StoredCheck& check, const std::vector<float>& values, bool& passed) {
+    double square = 0.0, sum = 0.0;
+    std::uint64_t outside = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double difference = double(values[i]) - check.expected[i];
+        square += difference * difference, sum += check.expected[i];
+        // Not as a difference above the bound: a number that is none must not pass.
+        if (!check.bounds.empty() && !(std::abs(difference) <= check.bounds[i])) ++outside;
+    }
+    const double count = double(values.size()), rmse = std::sqrt(square / count) / std::abs(sum / count);
+    std::ostringstream words;
+    words.precision(2);
+    words << check.buffer << ": relative RMSE " << rmse;
+    if (check.bounds.empty()) {
+        passed = passed && rmse <= check.largestRmse;
+        words << " of at most " << check.largestRmse;
+    } else {
+        passed = passed && outside <= check.exceptions;
+        words << ", " << outside << " of " << values.size() << " numbers out of bounds, at most " << check.exceptions;
+    }
+    return words.str();
+}
+
+// A difference of languages is no fault: compilers of drivers may round differently where Vulkan lets them.
+CaseResult repeatCase(VulkanDevice& device, const StoredCase& stored) {
+    const Outputs first = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::glsl);
+    const bool again = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::glsl) == first;
+    const bool hlsl = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::hlsl) == first;
+    return {stored.name + ", twice", "glsl", wayName(InjectWay::fixedPoint), again,
+            std::string(again ? "the same bits again" : "other bits in the second run") + (hlsl ? ", and in HLSL" : ", others in HLSL")};
+}
+
+}  // namespace
+
+std::vector<CaseResult> checkCases(VulkanDevice& device, const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".case") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    if (files.empty()) throw std::runtime_error(folder.string() + " holds no cases");
+    std::vector<CaseResult> results;
+    for (const auto& file : files) {
+        const StoredCase stored = readStoredCase(file);
+        std::vector<InjectWay> ways = waysOf(device.info().features, stored.settings.rule);
+        if (stored.settings.levels.empty()) ways.resize(1);
+        for (const InjectWay way : ways) {
+            for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) {
+                CaseResult result{stored.name, language == ShaderLanguage::glsl ? "glsl" : "hlsl", stored.settings.levels.empty() ? "" : wayName(way), true, ""};
+                const Outputs outputs = runCase(device, stored, way, language);
+                for (std::size_t i = 0; i < outputs.size(); ++i) result.words += (i > 0 ? "; " : "") + compare(stored.checks[i], outputs[i], result.passed);
+                results.push_back(result);
+            }
+        }
+        if (!stored.settings.levels.empty()) results.push_back(repeatCase(device, stored));
+    }
+    return results;
+}
+
+}  // namespace clv

@@ -1,0 +1,31 @@
+// The ways to inject that a device can take.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bindings/vulkan/vulkan_device.h"
+
+namespace clv {
+
+inline std::string wayName(InjectWay way) {
+    switch (way) {
+        case InjectWay::bricks: return "bricks";
+        case InjectWay::bricksPlain: return "bricks_plain";
+        case InjectWay::floatAtomics: return "float_atomics";
+        default: return "fixed_point";
+    }
+}
+
+// The default first.
+inline std::vector<InjectWay> waysOf(const VulkanFeatures& features, std::uint32_t rule = kClvInjectTrackLength) {
+    std::vector<InjectWay> ways{defaultInject(features, rule)};
+    const auto add = [&](InjectWay way, bool possible) {
+        if (possible && way != ways.front()) ways.push_back(way);
+    };
+    add(InjectWay::bricksPlain, rule == kClvInjectTrackLength);
+    add(InjectWay::floatAtomics, features.floatAtomics);
+    add(InjectWay::fixedPoint, true);
+    return ways;
+}
+
+}  // namespace clv
