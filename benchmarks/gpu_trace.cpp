@@ -44,7 +44,7 @@ struct Case {
         ClvFrame constants{};
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
         constants.rayCount = kRays, constants.halves = 1, constants.seed = kSeed;
-        constants.rsmSide = kRsmSide, constants.lightCount = uint(lights.size());
+        constants.rsmSide = kRsmSide, constants.texelRows = uint(lights.size()) * kRsmSide;
         constants.originOffset = EmbreeScene(scene).surfaceOffset();
         frame->upload("frame", constants);
         frame->upload("lights", std::span<const ClvLight>(lights));

@@ -25,7 +25,7 @@ ClvLevelFrame levelConstants(const Level& level, const BrickSlots& bricks, const
     constants.slotCount = uint(level.slots.size());
     constants.scale = 1.0f / float(raysOfHalf);
     constants.weight = weight;
-    constants.fixedScale = clvFixedScale(largestFlux, raysOfHalf, clvLargestDeposit(settings.rule, level.volume.cellSize));
+    constants.fixedScale = clvFixedScale(largestFlux, raysOfHalf, clvLargestDeposit(settings.rule, settings.turned ? 1u : 0u, level.volume.cellSize));
     constants.groupEnds = uvec4(bricks.groupEnds[0], bricks.groupEnds[1], bricks.groupEnds[2], bricks.groupEnds[3]);
     constants.groupCount = bricks.groupCount();
     constants.brickCount = uint(counts.x) * uint(counts.y) * uint(counts.z);

@@ -7,6 +7,7 @@
 layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
 layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
 layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
+layout(constant_id = CLV_SPEC_TURNED) const uint turned = 0u;
 layout(local_size_x = CLV_GROUP_SIZE) in;
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
 layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
@@ -25,7 +26,7 @@ void main() {
     if (i >= frame.halves * frame.receiverCount) return;
     uint receiver = i % frame.receiverCount;
     uint firstSlot = i / frame.receiverCount * level.slotCount;
-    ClvCoefficients read = clvReadCoefficients(storage, receivers[receiver].normal);
+    ClvCoefficients read = clvReadCoefficients(storage, clvKeptDirection(frame, turned, receivers[receiver].normal));
     vec3 sum = vec3(0.0);
     for (uint k = receiver == 0u ? 0u : ends[receiver - 1u]; k < ends[receiver]; ++k) {
         sum += clvReadRecord(firstSlot + slots[k], storage, channels, stride, read) * weights[k];

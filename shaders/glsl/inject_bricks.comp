@@ -15,6 +15,8 @@ ClvSegment segmentOfRay(uint first, uint k, uint end, uint lane, ClvSegment own)
     segment.inverse = subgroupShuffle(own.inverse, from);
     segment.start = subgroupShuffle(own.start, from);
     segment.direction = subgroupShuffle(own.direction, from);
+    segment.kept = segment.direction;
+    if (turned != 0u) segment.kept = subgroupShuffle(own.kept, from);
     segment.flux = subgroupShuffle(own.flux, from);
     return segment;
 }

@@ -6,6 +6,7 @@
 layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
 layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
 layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
+layout(constant_id = CLV_SPEC_TURNED) const uint turned = 0u;
 layout(constant_id = CLV_SPEC_DEPTH) const uint depth = 0u;
 layout(local_size_x = CLV_GROUP_SIZE) in;
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
@@ -28,7 +29,7 @@ ClvSegment loadSegment(uint i, uint end) {
     if (i >= end) return clvNoSegment();
     int row = int(3u * brickRays[i]);
     ClvRay ray = clvRayFromRows(texelFetch(rays, row), texelFetch(rays, row + 1), texelFetch(rays, row + 2));
-    return clvSegmentFromRay(level.volume, channels, ray);
+    return clvSegmentFromRay(level.volume, channels, ray, clvKeptDirection(frame, turned, ray.direction));
 }
 
 // What lane `lane` of the eight loads of the entries from `first` on.
@@ -54,7 +55,7 @@ void main() {
         [[unroll]] for (uint k = 0u; k < kClvBrickLanes; ++k) {
             ClvSegment segment = segmentOfRay(first, k, end, lane, own);
             float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
-            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.kept), segment.flux, weight);
         }
     }
     if (slot == kClvNoSlot) return;

@@ -6,6 +6,7 @@ layout(constant_id = CLV_SPEC_STORAGE) const uint storage = 0u;
 layout(constant_id = CLV_SPEC_CHANNELS) const uint channels = 3u;
 layout(constant_id = CLV_SPEC_RULE) const uint rule = 0u;
 layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
+layout(constant_id = CLV_SPEC_TURNED) const uint turned = 0u;
 layout(local_size_x = CLV_GROUP_SIZE) in;
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
 layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
@@ -24,7 +25,7 @@ void main() {
     if (i >= frame.rayCount) return;
     uint halfIndex = i / (frame.rayCount / frame.halves);
     ClvRay ray = rays[i];
-    ClvRecord record = clvRecordOfRay(storage, channels, ray);
+    ClvRecord record = clvRecordOfRay(storage, channels, ray, clvKeptDirection(frame, turned, ray.direction));
     uint values = clvCoefficientCount(storage) * channels;
     ClvWalk walk = clvWalkBegin(level.volume, ray);
     while (walk.running == 1) {

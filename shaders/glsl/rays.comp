@@ -19,8 +19,8 @@ void main() {
     uint i = clvItem(gl_GlobalInvocationID);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    vec4 u = clvSobol4(frame.firstIndex + clvNeighbourIndex(i % perHalf, perHalf), clvHashCombine(frame.seed, i / perHalf));
-    ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.lightCount * frame.rsmSide, vec2(u.x, u.y));
+    vec4 u = clvSobol4(frame.firstIndex + i / perHalf * perHalf + clvNeighbourIndex(i % perHalf, perHalf), frame.seed);
+    ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.texelRows, vec2(u.x, u.y));
     ClvRay ray = clvDeadRay();
     if (pick.probability > 0.0) ray = clvRayFromTexel(texels[pick.texel], vec2(u.z, u.w), 1.0 / pick.probability, frame.originOffset);
     rays[i] = ray;

@@ -7,7 +7,7 @@ layout(std430, binding = CLV_BIND_TEXELS) writeonly buffer Texels { ClvRsmTexel 
 void main() {
     uint i = clvItem(gl_GlobalInvocationID);
     uint perLight = frame.rsmSide * frame.rsmSide;
-    if (i >= frame.lightCount * perLight) return;
+    if (i >= frame.texelRows * frame.rsmSide) return;
     uint light = i / perLight;
     uvec2 texel = uvec2(i % frame.rsmSide, i % perLight / frame.rsmSide);
     vec2 u = clvRsmSamplePoint(texel, frame.rsmSide, frame.rsmPass, clvHashCombine(frame.rsmSeed, light));

@@ -17,8 +17,8 @@ void writeSum(uint i, float sum) { texelSums[row() * (frame.rsmSide + 1) + i] = 
 #include "running_sums.glsl"
 
 void main() {
-    if (row() >= frame.lightCount * frame.rsmSide) return;
+    if (row() >= frame.texelRows) return;
     float flux = writeRunningSums(frame.rsmSide);
-    uint overRows = frame.lightCount * frame.rsmSide * (frame.rsmSide + 1);
+    uint overRows = frame.texelRows * (frame.rsmSide + 1);
     if (gl_LocalInvocationIndex == 0) texelSums[overRows + row() + 1] = flux;
 }

@@ -4,6 +4,7 @@
 [[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
 [[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
 [[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
+[[vk::constant_id(CLV_SPEC_TURNED)]] const uint turned = 0u;
 [[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
 [[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
 [[vk::binding(CLV_BIND_RECEIVERS)]] StructuredBuffer<ClvReceiver> receivers;
@@ -22,7 +23,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
     if (i >= frame.halves * frame.receiverCount) return;
     uint receiver = i % frame.receiverCount;
     uint firstSlot = i / frame.receiverCount * level.slotCount;
-    ClvCoefficients read = clvReadCoefficients(storage, receivers[receiver].normal);
+    ClvCoefficients read = clvReadCoefficients(storage, clvKeptDirection(frame, turned, receivers[receiver].normal));
     float3 sum = float3(0.0, 0.0, 0.0);
     for (uint k = receiver == 0u ? 0u : ends[receiver - 1u]; k < ends[receiver]; ++k) {
         sum += clvReadRecord(firstSlot + slots[k], storage, channels, stride, read) * weights[k];

@@ -12,6 +12,8 @@ ClvSegment segmentOfRay(uint first, uint k, uint end, uint lane, ClvSegment own)
     segment.inverse = WaveReadLaneAt(own.inverse, from);
     segment.start = WaveReadLaneAt(own.start, from);
     segment.direction = WaveReadLaneAt(own.direction, from);
+    segment.kept = segment.direction;
+    if (turned != 0u) segment.kept = WaveReadLaneAt(own.kept, from);
     segment.flux = WaveReadLaneAt(own.flux, from);
     return segment;
 }

@@ -5,6 +5,7 @@
 [[vk::constant_id(CLV_SPEC_STORAGE)]] const uint storage = 0u;
 [[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
 [[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
+[[vk::constant_id(CLV_SPEC_TURNED)]] const uint turned = 0u;
 [[vk::constant_id(CLV_SPEC_DEPTH)]] const uint depth = 0u;
 [[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
 [[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
@@ -26,7 +27,7 @@ ClvSegment loadSegment(uint i, uint end) {
     if (i >= end) return clvNoSegment();
     int row = int(3u * brickRays[i]);
     ClvRay ray = clvRayFromRows(rays.Load(row), rays.Load(row + 1), rays.Load(row + 2));
-    return clvSegmentFromRay(level.volume, channels, ray);
+    return clvSegmentFromRay(level.volume, channels, ray, clvKeptDirection(frame, turned, ray.direction));
 }
 
 // What lane `lane` of the eight loads of the entries from `first` on.
@@ -53,7 +54,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
         [unroll] for (uint k = 0u; k < kClvBrickLanes; ++k) {
             ClvSegment segment = segmentOfRay(first, k, end, lane, own);
             float weight = clvGatherWeight(mine, depth, segment, level.volume.cellSize);
-            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.direction), segment.flux, weight);
+            clvAddToRecord(sum, channels, clvDepositCoefficients(storage, segment.kept), segment.flux, weight);
         }
     }
     if (slot == kClvNoSlot) return;

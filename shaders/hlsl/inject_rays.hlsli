@@ -6,6 +6,7 @@
 [[vk::constant_id(CLV_SPEC_CHANNELS)]] const uint channels = 3u;
 [[vk::constant_id(CLV_SPEC_RULE)]] const uint rule = 0u;
 [[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
+[[vk::constant_id(CLV_SPEC_TURNED)]] const uint turned = 0u;
 [[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
 [[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
 [[vk::binding(CLV_BIND_RAYS)]] StructuredBuffer<ClvRay> rays;
@@ -24,7 +25,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
     if (i >= frame.rayCount) return;
     uint halfIndex = i / (frame.rayCount / frame.halves);
     ClvRay ray = rays[i];
-    ClvRecord record = clvRecordOfRay(storage, channels, ray);
+    ClvRecord record = clvRecordOfRay(storage, channels, ray, clvKeptDirection(frame, turned, ray.direction));
     uint values = clvCoefficientCount(storage) * channels;
     ClvWalk walk = clvWalkBegin(level.volume, ray);
     while (walk.running == 1) {

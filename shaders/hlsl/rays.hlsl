@@ -17,8 +17,8 @@ void main(uint3 thread : SV_DispatchThreadID) {
     uint i = clvItem(thread);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    float4 u = clvSobol4(frame.firstIndex + clvNeighbourIndex(i % perHalf, perHalf), clvHashCombine(frame.seed, i / perHalf));
-    ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.lightCount * frame.rsmSide, float2(u.x, u.y));
+    float4 u = clvSobol4(frame.firstIndex + i / perHalf * perHalf + clvNeighbourIndex(i % perHalf, perHalf), frame.seed);
+    ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.texelRows, float2(u.x, u.y));
     ClvRay ray = clvDeadRay();
     if (pick.probability > 0.0) ray = clvRayFromTexel(texels[pick.texel], float2(u.z, u.w), 1.0 / pick.probability, frame.originOffset);
     rays[i] = ray;

@@ -7,7 +7,7 @@
 void main(uint3 thread : SV_DispatchThreadID) {
     uint i = clvItem(thread);
     uint perLight = frame.rsmSide * frame.rsmSide;
-    if (i >= frame.lightCount * perLight) return;
+    if (i >= frame.texelRows * frame.rsmSide) return;
     uint light = i / perLight;
     uint2 texel = uint2(i % frame.rsmSide, i % perLight / frame.rsmSide);
     float2 u = clvRsmSamplePoint(texel, frame.rsmSide, frame.rsmPass, clvHashCombine(frame.rsmSeed, light));

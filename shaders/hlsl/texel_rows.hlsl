@@ -16,8 +16,8 @@ void writeSum(uint i, float sum) { texelSums[row * (frame.rsmSide + 1) + i] = su
 [numthreads(CLV_GROUP_SIZE, 1, 1)]
 void main(uint3 item : SV_DispatchThreadID, uint thread : SV_GroupIndex) {
     row = clvItem(item) / CLV_GROUP_SIZE;
-    if (row >= frame.lightCount * frame.rsmSide) return;
+    if (row >= frame.texelRows) return;
     float flux = writeRunningSums(thread, frame.rsmSide);
-    uint overRows = frame.lightCount * frame.rsmSide * (frame.rsmSide + 1);
+    uint overRows = frame.texelRows * (frame.rsmSide + 1);
     if (thread == 0) texelSums[overRows + row + 1] = flux;
 }

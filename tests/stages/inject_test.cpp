@@ -43,25 +43,29 @@ TEST(Inject, theFirstBoundaryLiesAhead) {
     EXPECT_EQ(clvWalkFirstBoundary(-0.1f, 2), 2.0f);
 }
 
-// Through the middle of a cell in any direction: no coefficient gets more than the side of the cell, and some get all of it.
+// Through the middle of a cell in any direction: no coefficient gets more than the bound, and some get all of it.
 TEST(Inject, noDepositExceedsTheLargest) {
     const float side = 0.5f;
     ClvVolume volume{};
     volume.cellSize = side, volume.resolution = ivec3(1);
-    float largest = 0.0f;
+    // Along the grid, and with an axis along the cell's diagonal.
+    const mat3 axes[2] = {mat3(1.0f), glm::transpose(mat3(normalize(vec3(1.0f)), normalize(vec3(1.0f, -1.0f, 0.0f)), normalize(vec3(1.0f, 1.0f, -2.0f))))};
+    float largest[2] = {};
     for (std::uint32_t i = 0; i < 4096; ++i) {
         const vec4 u = clvSobol4(i, 5);
         ClvRay ray{};
-        ray.direction = i < 3 ? vec3(i == 0, i == 1, i == 2) : clvSphereFromSquare(vec2(u.x, u.y));
+        ray.direction = i < 3 ? vec3(i == 0, i == 1, i == 2) : i == 3 ? normalize(vec3(1.0f)) : clvSphereFromSquare(vec2(u.x, u.y));
         ray.origin = vec3(0.5f * side) - ray.direction, ray.maxDistance = kClvFar, ray.flux = vec3(1.0f);
         ClvWalk walk = clvWalkBegin(volume, ray);
         const float length = clvCrossingWeight(kClvInjectTrackLength, clvWalkStep(walk, ray.direction), side);
         for (const uint storage : {kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) {
-            const ClvRecord record = clvRecordOfRay(storage, 1, ray);
-            for (uint k = 0; k < clvCoefficientCount(storage); ++k) largest = std::max(largest, std::abs(clvRecordValue(record, 1, k)) * length);
+            for (int turned = 0; turned < 2; ++turned) {
+                const ClvRecord record = clvRecordOfRay(storage, 1, ray, axes[turned] * ray.direction);
+                for (uint k = 0; k < clvCoefficientCount(storage); ++k) largest[turned] = std::max(largest[turned], std::abs(clvRecordValue(record, 1, k)) * length);
+            }
         }
     }
-    EXPECT_NEAR(largest, clvLargestDeposit(kClvInjectTrackLength, side), 1e-6f);
+    for (uint turned = 0; turned < 2; ++turned) EXPECT_NEAR(largest[turned], clvLargestDeposit(kClvInjectTrackLength, turned, side), 1e-6f) << turned;
 }
 
 TEST(Inject, fixedPointHoldsTheLargestSumsAndUsesTheIntegers) {

@@ -6,6 +6,7 @@
 
 #include "clv/cpu/aligned.h"
 #include "clv/cpu/inject.h"
+#include "support/rotation.h"
 #include "vulkan/level_scene.h"
 
 using namespace clv;
@@ -20,17 +21,19 @@ constexpr double kUnit = 0x1p-24;      // rounding of a float
 LightFrameSettings settingsFor(InjectWay way, const DepositLayout& layout) {
     LightFrameSettings settings;
     settings.rays = kRays, settings.halves = 2, settings.inject = way;
-    settings.storage = layout.storage, settings.channels = std::uint32_t(layout.channels);
+    settings.storage = layout.storage, settings.channels = std::uint32_t(layout.channels), settings.turned = layout.frame != mat3(1.0f);
     return settings;
 }
 
 // What each half's slots hold after one frame, times the number of its rays: the sums of its deposits.
-std::vector<float> depositsOf(VulkanDevice& device, ShaderLanguage language, LightFrameSettings settings, const Level& level, std::span<const ClvRay> rays) {
+std::vector<float> depositsOf(VulkanDevice& device, ShaderLanguage language, LightFrameSettings settings, const Level& level, std::span<const ClvRay> rays,
+                              const mat3& axes = mat3(1.0f)) {
     const BrickSlots bricks = brickSlots(level);
     settings.levels = {describeLevel(level, bricks)};
     VulkanFrame frame(device, lightFrame(settings), language);
     ClvFrame constants{};
     constants.rayCount = kRays, constants.halves = settings.halves;
+    keepDirectionsAlong(axes, constants);
     frame.upload("frame", constants);
     frame.upload("rays", rays);
     frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f, kLargestFlux));
@@ -54,7 +57,7 @@ Expected expectedDeposits(const Level& level, const DepositLayout& layout, std::
     std::vector<int> terms(2 * level.slots.size());
     const double diagonal = glm::length(vec3(level.volume.resolution)) * double(level.volume.cellSize);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i]);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], layout.frame * rays[i].direction);
         ClvWalk walk = clvWalkBegin(level.volume, rays[i]);
         while (walk.running == 1) {
             const ClvCrossing crossing = clvWalkStep(walk, rays[i].direction);
@@ -93,10 +96,10 @@ protected:
         const Expected expected = expectedDeposits(level, layout, rule, rays);
         LightFrameSettings settings = settingsFor(way, layout);
         settings.rule = rule;
-        const std::vector<float> sums = depositsOf(device, language, settings, level, rays);
+        const std::vector<float> sums = depositsOf(device, language, settings, level, rays, layout.frame);
         ASSERT_EQ(sums.size(), expected.sum.size());
         // Half a unit for each term of a fixed-point sum, and the conversion of the sum to a float.
-        const double unit = way == InjectWay::fixedPoint ? 1.0 / clvFixedScale(kLargestFlux, kRays / 2, clvLargestDeposit(rule, level.volume.cellSize)) : 0.0;
+        const double unit = way == InjectWay::fixedPoint ? 1.0 / clvFixedScale(kLargestFlux, kRays / 2, clvLargestDeposit(rule, settings.turned ? 1u : 0u, level.volume.cellSize)) : 0.0;
         double exact = 0.0, largest = 0.0;
         std::size_t lit = 0;
         for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -145,6 +148,16 @@ TEST_F(VulkanInject, findsTheSidesOfCellsThatWallsCut) {
                 SCOPED_TRACE(testing::Message() << n << ", way " << int(way) << ", language " << int(language));
                 expectDeposits(way, language, level, {kClvStorageCube9, n == 16 ? 3 : 1});
             }
+        }
+    }
+}
+
+TEST_F(VulkanInject, keepsDirectionsAlongTurnedAxes) {
+    const Level level = twoRoomsLevel(embree, 16);
+    for (const InjectWay way : kWays) {
+        for (const ShaderLanguage language : kLanguages) {
+            SCOPED_TRACE(testing::Message() << "way " << int(way) << ", language " << int(language));
+            expectDeposits(way, language, level, {kClvStorageCube9, 3, turned(0.6f, vec3(1.0f, 2.0f, 3.0f))});
         }
     }
 }

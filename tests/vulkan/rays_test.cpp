@@ -27,7 +27,7 @@ TEST(VulkanRays, areThoseOfTheHost) {
         const std::vector<ClvRay> rays = RaysFrame::raysOf(run);
         for (std::uint32_t i = 0; i < kRays; ++i) {
             const std::uint32_t perHalf = kRays / 2;
-            const vec4 u = clvSobol4(64 + clvNeighbourIndex(i % perHalf, perHalf), clvHashCombine(7, i / perHalf));
+            const vec4 u = clvSobol4(64 + i / perHalf * perHalf + clvNeighbourIndex(i % perHalf, perHalf), 7);
             const ClvTexelPick pick = clvPickTexel(Sums{scene.sums}, kSide, kSide, vec2(u.x, u.y));
             const ClvRay expected = clvRayFromTexel(scene.texels[pick.texel], vec2(u.z, u.w), 1.0f / pick.probability, 1e-3f);
             ASSERT_EQ(rays[i].origin, expected.origin) << i;

@@ -25,7 +25,7 @@ struct TracedScene {
         for (const NamedLight& light : scene.lights) lights.push_back(light.light);
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
         constants.rayCount = rays, constants.halves = 2, constants.seed = 3;
-        constants.rsmPass = 2, constants.rsmSeed = 5, constants.rsmSide = side, constants.lightCount = uint(lights.size());
+        constants.rsmPass = 2, constants.rsmSeed = 5, constants.rsmSide = side, constants.texelRows = uint(lights.size()) * side;
         constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(scene.triangles.size());
         settings.lights = lights.size(), settings.rsmSide = side, settings.rays = rays, settings.halves = 2, settings.keepHits = keepHits;
         settings.triangles = scene.triangles.size(), settings.bvhNodes = bvh.children.size(), settings.textureTexels = rows.textureTexels.size();

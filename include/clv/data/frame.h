@@ -5,21 +5,25 @@
 #include "light_volume.h"
 CLV_NAMESPACE_BEGIN
 
-struct ClvFrame {        // 80 bytes; of the whole frame
+struct ClvFrame {        // 112 bytes; of the whole frame
     vec3 boundsLo;       // m, relative to the anchor: what the maps of directional lights cover
     uint rayCount;       // >= 1, a multiple of `halves`
     vec3 boundsHi;
-    uint halves;         // 1 or 2: the rays are cut into as many independent estimates
-    uint firstIndex;     // of this frame's first ray in the sequence of each half
-    uint seed;           // of the rays; a half adds its number
+    uint halves;         // 1 or 2: the rays are cut into as many estimates, one after the other
+    uint firstIndex;     // of this frame's first ray in the sequence that all halves share
+    uint seed;           // of the rays
     uint rsmPass;        // which of the well-spread points of its texels this frame's map samples
     uint rsmSeed;        // a light adds its number
-    uint rsmSide;        // texels along a side of a light's map
-    uint lightCount;     // maps are stacked: light k owns the rows [k, k + 1) * rsmSide
+    uint rsmSide;        // texels in a row: along a side of a light's map
+    uint texelRows;      // of all maps, stacked: light k owns the rows [k, k + 1) * rsmSide
     uint receiverCount;
     float originOffset;  // m, >= 0: rays start this far above their surface
-    vec3 pad0;
+    vec3 axisX;          // of the axes along which cells keep directions: orthogonal, of unit length
     uint triangleCount;
+    vec3 axisY;
+    uint pad0;
+    vec3 axisZ;
+    uint pad1;
 };
 
 struct ClvLevelFrame {   // 96 bytes; of one level of the light volume
@@ -34,6 +38,11 @@ struct ClvLevelFrame {   // 96 bytes; of one level of the light volume
     uint pad0;
     uint pad1;
 };
+
+// A direction as cells keep it. turned: 0 where they keep it along the axes of the grid; a constant.
+CLV_FN vec3 clvKeptDirection(ClvFrame frame, uint turned, vec3 direction) {
+    return turned == 0u ? direction : vec3(dot(frame.axisX, direction), dot(frame.axisY, direction), dot(frame.axisZ, direction));
+}
 
 // Index of a thread's item: work groups lie in rows of CLV_GROUP_ROW, since devices take only 65535 along an axis.
 CLV_FN uint clvItem(uvec3 thread) { return thread.x + thread.y * uint(CLV_GROUP_ROW * CLV_GROUP_SIZE); }

@@ -13,14 +13,14 @@
 #define CLV_BIND_LEVEL 1           // ClvLevelFrame
 
 // The scene.
-#define CLV_BIND_LIGHTS 2          // ClvLight[lightCount]
+#define CLV_BIND_LIGHTS 2          // ClvLight[]
 #define CLV_BIND_BVH_BOXES 3       // texel buffer, RGBA32F: see data/bvh.h
 #define CLV_BIND_BVH_CHILDREN 4    // texel buffer, RGBA32UI
 #define CLV_BIND_TRIANGLES 5       // texel buffer, RGBA32F
 #define CLV_BIND_SURFACES 6        // texel buffer, RGBA32F: a triangle's normal and albedo
 
 // What flows.
-#define CLV_BIND_TEXELS 7          // ClvRsmTexel[lightCount * rsmSide^2]
+#define CLV_BIND_TEXELS 7          // ClvRsmTexel[texelRows * rsmSide]
 #define CLV_BIND_TEXEL_SUMS 8      // float: rows of rsmSide + 1 running sums from 0 to 1, then one over all rows
 #define CLV_BIND_RAYS 9            // ClvRay[rayCount]
 #define CLV_BIND_HITS 10           // ClvHit[rayCount]
@@ -55,5 +55,6 @@
 #define CLV_SPEC_RULE 2            // kClvInject...
 #define CLV_SPEC_STRIDE 3          // floats a record
 #define CLV_SPEC_DEPTH 4           // splits between a cell and its slots, at most
+#define CLV_SPEC_TURNED 5          // 1: cells keep directions along the axes of the frame, not those of the grid
 
 #endif

@@ -46,6 +46,7 @@ struct LightFrameSettings {
     std::uint64_t rays = 0;            // a frame
     std::uint64_t receivers = 0;       // 0: no evaluate step
     std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
+    bool turned = false;               // cells keep directions along ClvFrame's axes, not along those of the grid
     std::uint32_t rule = kClvInjectTrackLength;
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
@@ -55,6 +56,12 @@ struct LightFrameSettings {
 // Floats of a slot's record: its coefficients times its channels, padded to whole vectors of eight.
 inline std::uint32_t frameStride(const LightFrameSettings& settings) {
     return (clvCoefficientCount(settings.storage) * settings.channels + 7u) / 8u * 8u;
+}
+
+// Cells keep directions along the rows of `axes`, an orthonormal matrix; for frames whose settings are `turned`.
+inline void keepDirectionsAlong(const mat3& axes, ClvFrame& frame) {
+    const mat3 rows = glm::transpose(axes);
+    frame.axisX = rows[0], frame.axisY = rows[1], frame.axisZ = rows[2];
 }
 
 // Bricks that a straight line crosses at most.
@@ -222,7 +229,7 @@ private:
     }
 
     Constants recordConstants() const {
-        return {{CLV_SPEC_STORAGE, s_.storage}, {CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_STRIDE, frameStride(s_)}};
+        return {{CLV_SPEC_STORAGE, s_.storage}, {CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_STRIDE, frameStride(s_)}, {CLV_SPEC_TURNED, s_.turned ? 1u : 0u}};
     }
     static FrameUse uniform(std::uint32_t b) { return {b, FrameBinding::uniform, FrameAccess::read, FrameFormat::none}; }
     static FrameUse read(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::read, FrameFormat::none}; }

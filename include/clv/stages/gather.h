@@ -21,6 +21,7 @@ struct ClvSegment {
     vec3 inverse;    // 1 / direction
     vec3 start;      // m, the origin again
     vec3 direction;
+    vec3 kept;       // the direction as cells keep it
     vec3 flux;       // W, by channel: see clvChannelFlux
 };
 
@@ -31,6 +32,7 @@ CLV_FN ClvSegment clvNoSegment() {
     segment.inverse = vec3(1.0f, 1.0f, 1.0f);
     segment.start = vec3(0.0f, 0.0f, 0.0f);
     segment.direction = vec3(0.0f, 0.0f, 0.0f);
+    segment.kept = vec3(0.0f, 0.0f, 0.0f);
     segment.flux = vec3(0.0f, 0.0f, 0.0f);
     return segment;
 }
@@ -43,7 +45,7 @@ CLV_FN void clvSegmentAlongAxis(float direction, int cell, CLV_INOUT(float) orig
     if (origin >= float(cell + 1)) origin = float(cell) + 0.5f;
 }
 
-CLV_FN ClvSegment clvSegmentFromRay(ClvVolume volume, uint channels, ClvRay ray) {
+CLV_FN ClvSegment clvSegmentFromRay(ClvVolume volume, uint channels, ClvRay ray, vec3 kept) {
     ClvWalk walk = clvWalkBegin(volume, ray);
     if (walk.running == 0) return clvNoSegment();
     ClvSegment segment;
@@ -52,6 +54,7 @@ CLV_FN ClvSegment clvSegmentFromRay(ClvVolume volume, uint channels, ClvRay ray)
     segment.inverse = walk.inverse;
     segment.start = ray.origin;
     segment.direction = ray.direction;
+    segment.kept = kept;
     segment.flux = clvChannelFlux(channels, ray);
     clvSegmentAlongAxis(ray.direction.x, walk.cell.x, segment.origin.x, segment.inverse.x);
     clvSegmentAlongAxis(ray.direction.y, walk.cell.y, segment.origin.y, segment.inverse.y);

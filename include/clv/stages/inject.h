@@ -120,9 +120,12 @@ CLV_FN float clvCrossingWeight(uint rule, ClvCrossing crossing, float cellSize) 
 // Deposits as integers: the nearest to value * scale, which must lie within the integers; see clvFixedScale.
 CLV_FN int clvFixedFromFloat(float value, float scale) { return int(floor(value * scale + 0.5f)); }
 
-// The most by which a ray of unit flux adds to any coefficient of a slot: along a cell's side the product of direction and length is
-// at most that side, and no other function of a storage gets above it.
-CLV_FN float clvLargestDeposit(uint rule, float cellSize) { return rule == kClvInjectThesis ? 1.0f : cellSize; }
+// The most by which a ray of unit flux adds to any coefficient of a slot. Along a cell's side the product of direction and length is at
+// most that side, and no other function of a storage gets above it; along an axis that is turned it may be the cell's diagonal.
+CLV_FN float clvLargestDeposit(uint rule, uint turned, float cellSize) {
+    if (rule == kClvInjectThesis) return 1.0f;
+    return turned == 0u ? cellSize : 1.7320509f * cellSize;
+}
 
 // The largest scale, 1/(W m), with which no sum of the deposits of `rays` rays can overflow, whatever they do: each adds at most
 // largestFlux (W, of any channel of any ray) times largestDeposit, and half a unit of rounding.

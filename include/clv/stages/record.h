@@ -72,12 +72,12 @@ CLV_FN vec3 clvChannelFlux(uint channels, ClvRay ray) {
     return ray.flux;
 }
 
-// What a ray adds to a record per metre.
-CLV_FN ClvRecord clvRecordOfRay(uint storage, uint channels, ClvRay ray) {
+// What a ray adds to a record per metre. kept: its direction as cells keep it.
+CLV_FN ClvRecord clvRecordOfRay(uint storage, uint channels, ClvRay ray, vec3 kept) {
     ClvRecord record = clvNoRecord();
     vec3 flux = clvChannelFlux(channels, ray);
     // A direction that is not finite would make 0 * NaN.
-    if (dot(flux, flux) > 0.0f) clvAddToRecord(record, channels, clvDepositCoefficients(storage, ray.direction), flux, 1.0f);
+    if (dot(flux, flux) > 0.0f) clvAddToRecord(record, channels, clvDepositCoefficients(storage, kept), flux, 1.0f);
     return record;
 }
 
