@@ -86,8 +86,8 @@ struct CpuScene {
     ClvFrame constants(const LightFrameSettings& settings) const {
         ClvFrame constants{};
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
-        constants.rayCount = uint(settings.rays), constants.halves = kHalves, constants.seed = kSeed, constants.rsmSeed = kSeed;
-        constants.rsmSide = kRsmSide, constants.lightCount = uint(settings.lights), constants.receiverCount = uint(settings.receivers);
+        constants.rayCount = uint(settings.rays), constants.halves = kHalves, constants.seed = clvHashCombine(kSeed, 0u), constants.rsmSeed = kSeed;
+        constants.rsmSide = kRsmSide, constants.texelRows = uint(settings.lights) * kRsmSide, constants.receiverCount = uint(settings.receivers);
         constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(settings.triangles);
         return constants;
     }
@@ -154,7 +154,7 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
     std::vector<double> sum(count), magnitude(count), terms(cpu.level.slots.size());
     const float largestFlux = float(cpu.sampler.totalFlux());
     for (const ClvRay& ray : rays) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, ray.direction);
         for (ClvWalk walk = clvWalkBegin(volume, ray); walk.running == 1;) {
             const ClvCrossing crossing = clvWalkStep(walk, ray.direction);
             const float middle = 0.5f * (crossing.tBegin + crossing.tEnd) * volume.cellSize;
@@ -168,7 +168,7 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
             }
         }
     }
-    const double fixedUnit = 1.0 / clvFixedScale(largestFlux, uint(kFewRays), clvLargestDeposit(rule, volume.cellSize));
+    const double fixedUnit = 1.0 / clvFixedScale(largestFlux, uint(kFewRays), clvLargestDeposit(rule, 0u, volume.cellSize));
     const double longest = double(length(vec3(volume.resolution))) * (rule == kClvInjectThesis ? 1.0 : double(volume.cellSize));
     StoredCheck history{.buffer = "history 0", .exceptions = exceptionsOf(count)};
     for (std::size_t k = 0; k < count; ++k) {

@@ -10,7 +10,7 @@
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/cpu/build_level.h"
 #include "clv/plan/cascade_placement.h"
-#include "clv/stages/pick_texel.h"
+#include "clv/stages/rays.h"
 
 namespace clv {
 namespace {
@@ -115,7 +115,7 @@ private:
     void upload(VulkanFrame& frame) {
         constants_.boundsLo = scene_.boundsLo, constants_.boundsHi = scene_.boundsHi;
         constants_.rayCount = uint(settings_.rays), constants_.halves = settings_.halves, constants_.seed = 1;
-        constants_.rsmSide = kRsmSide, constants_.lightCount = uint(scene_.lights.size()), constants_.receiverCount = uint(receivers_.size());
+        constants_.rsmSide = kRsmSide, constants_.texelRows = uint(scene_.lights.size()) * kRsmSide, constants_.receiverCount = uint(receivers_.size());
         constants_.originOffset = scene_.originOffset, constants_.triangleCount = uint(settings_.triangles);
         frame.upload("frame", constants_);
         frame.upload("lights", std::span(scene_.lights));

@@ -47,6 +47,7 @@
 #include "stages/inject.h"
 #include "stages/merge.h"
 #include "stages/pick_texel.h"
+#include "stages/ray_guide.h"
 #include "stages/rays.h"
 #include "stages/read_record.h"
 #include "stages/record.h"

@@ -90,11 +90,45 @@ TEST(RayGuide, prefersPlacesAndDirectionsThatMetSomething) {
     const RayGuide guide = OpenFloor().learntGuide();
     const vec3 here(0.1f, 0.0f, 0.5f), there(0.9f, 0.0f, 0.5f);
     EXPECT_GT(guide.texelWeight(here), 1.5f * guide.texelWeight(there));
-    const int row[] = {guide.rowAt(here), guide.rowAt(here)};
+    const uint row[] = {guide.rowAt(here), guide.rowAt(here)};
     const float x[] = {0.8f, -0.8f}, y[] = {0.6f, 0.6f}, z[] = {0.0f, 0.0f};
     float weight[2];
     guide.directionWeights(2, row, x, y, z, weight);
     EXPECT_GT(weight[0], 1.5f * weight[1]);
+}
+
+// What shaders run, a ray at a time, is what the blocks of the CPU compute.
+TEST(RayGuide, choosesRayByRayWhatItChoosesInBlocks) {
+    const OpenFloor floor;
+    const RayGuide guide = floor.learntGuide();
+    constexpr uint kSeed = 5, kRays = 4096;
+    const auto rays = floor.tracedRays(&guide, kRays, kSeed);
+    TexelSampler sampler;
+    sampler.build(floor.texels, kSide, serialFor(), &guide);
+    std::size_t resampled = 0;
+    for (uint i = 0; i < kRays; ++i) {
+        const vec4 u = clvSobol4(i, kSeed);
+        ClvRsmTexel texel;
+        float probability;
+        sampler.sample(1, &u.x, &u.y, &texel, &probability);
+        const ClvGuidedDirection guided = clvGuideDirection(guide, guide.rowAt(texel.position), texel.normal, vec2(u.z, u.w), clvGuideChoice(i, kSeed));
+        ASSERT_EQ(rays[i].origin, texel.position) << i;
+        ASSERT_EQ(rays[i].direction, guided.direction) << i;
+        ASSERT_EQ(rays[i].flux, texel.flux * (1.0f / (probability * guided.probability))) << i;
+        resampled += guided.direction != clvCosineFromSquare(vec2(u.z, u.w), texel.normal);
+    }
+    EXPECT_GT(resampled, kRays / 4);
+}
+
+// Rays of a map whose texels are alike carry all of its flux each, unless the guide says otherwise.
+TEST(RayGuide, boundsByHowMuchItRaisesTheFluxOfARay) {
+    const OpenFloor floor;
+    const RayGuide guide = floor.learntGuide();
+    float largest = 0.0f;
+    for (const ClvRay& ray : floor.tracedRays(&guide, 65536, 5)) largest = std::max(largest, ray.flux.x);
+    EXPECT_GT(largest, 1.5f * kSide * kSide);
+    EXPECT_LE(largest, guide.largestGain() * kSide * kSide);
+    EXPECT_EQ(RayGuide(vec3(0.0f), vec3(1.0f)).largestGain(), 1.0f);
 }
 
 TEST(RayGuide, aClosedSceneIsNotGuided) {

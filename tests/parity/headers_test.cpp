@@ -29,6 +29,10 @@ std::string readersOf(const std::string& header) {
                "uvec4 clvReadBvhChildren(uint node) { return uvec4(node, node, node, node); }\n"
                "vec4 clvReadTriangle(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n";
     }
+    if (header == "clv/stages/ray_guide.h") {
+        return "uint clvReadGuideCell(uint cell) { return cell; }\n"
+               "float clvReadGuideWeight(uint i) { return 0.5; }\n";
+    }
     if (header == "clv/stages/pick_texel.h") return "float clvReadTexelSum(uint i) { return 0.5; }\n";
     if (header == "clv/stages/find_slot.h" || header == "clv/stages/gather.h") {
         return including("clv/data/light_volume.h") + "#ifndef SPLIT_READER\n#define SPLIT_READER\nClvSplit clvReadSplit(uint i) {\n"

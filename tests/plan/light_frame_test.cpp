@@ -106,6 +106,17 @@ TEST(LightFrame, leavesOutWhatNobodyReads) {
     for (const char* buffer : {"brick cursors 0", "brick begins 0", "brick rays 0", "brick slots 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
 }
 
+TEST(LightFrame, bindsAGuideOnlyWhereThereIsOne) {
+    LightFrameSettings settings = smallSettings();
+    for (const char* buffer : {"guide", "guide cells", "guide weights"}) EXPECT_FALSE(has(lightFrame(settings), buffer)) << buffer;
+    settings.guideCells = 64, settings.guideRows = 9;
+    const Frame frame = lightFrame(settings);
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+    EXPECT_EQ(frame.buffers[frame.bufferIndex("guide weights")].bytes, 9 * kClvGuideRow * sizeof(float));
+    EXPECT_EQ(frame.steps[0].passes[1].shader, "texel_rows_guided");
+    EXPECT_EQ(frame.steps[1].passes[0].shader, "rays_guided");
+}
+
 // Its lights stand still and one volume holds the scene: it has neither the data nor the passes of what moves.
 TEST(LightFrame, hasNeitherDynamicityNorScrolling) {
     for (const InjectWay inject : kWays) {

@@ -9,6 +9,7 @@
 #include "bindings/scene/scene_builder.h"
 #include "clv/math/hash.h"
 #include "clv/stages/pick_texel.h"
+#include "clv/stages/rays.h"
 #include "vulkan/traced_scene.h"
 
 namespace clv::test {

@@ -54,7 +54,7 @@ TEST(SteadyFrame, takesNothingFromTheLightsToTheReceivers) {
         whole.settings.inject = way;
         VulkanFrame run(device, lightFrame(whole.settings));
         whole.uploadTo(run);
-        std::vector<vec4> irradiance(whole.receivers.size());
+        std::vector<vec4> irradiance(WholeFrame::kHalves * whole.receivers.size());
         const Taken taken = whatSteadyFramesTake(watched, [&](std::uint32_t number) {
             whole.uploadConstants(run, number);
             run.run({"rsm", "light", "evaluate"});

@@ -2,9 +2,11 @@
 #ifndef CLV_TESTS_VULKAN_TRACED_SCENE_H
 #define CLV_TESTS_VULKAN_TRACED_SCENE_H
 #include <cstring>
+#include <optional>
 
 #include "bindings/embree/embree_scene.h"
 #include "bindings/vulkan/vulkan_frame.h"
+#include "clv/cpu/ray_guide.h"
 #include "clv/plan/light_frame.h"
 #include "support/scene_reader.h"
 
@@ -18,6 +20,7 @@ struct TracedScene {
     std::vector<ClvLight> lights;
     ClvFrame constants{};
     LightFrameSettings settings;
+    std::optional<RayGuide> guide;
     VulkanDevice device{{.device = "", .floatAtomics = true, .validate = true}};
 
     TracedScene(Scene source, std::uint32_t side, std::uint32_t rays, bool keepHits)
@@ -31,6 +34,11 @@ struct TracedScene {
         settings.triangles = scene.triangles.size(), settings.bvhNodes = bvh.children.size(), settings.textureTexels = rows.textureTexels.size();
     }
 
+    void guideBy(const RayGuide& learnt) {
+        guide = learnt;
+        settings.guideCells = learnt.cells().size(), settings.guideRows = learnt.weights().size() / kClvGuideRow;
+    }
+
     SceneReader reader() const { return {bvh, rows}; }
 
     void uploadScene(VulkanFrame& vulkan) const {
@@ -40,9 +48,15 @@ struct TracedScene {
         vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
         vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
         vulkan.upload("surfaces", std::span<const vec4>(rows.surfaces));
-        if (settings.textureTexels == 0) return;
-        vulkan.upload("texture rows", std::span<const uvec4>(rows.textureRows));
-        vulkan.upload("texture texels", std::span<const vec4>(rows.textureTexels));
+        if (settings.textureTexels > 0) {
+            vulkan.upload("texture rows", std::span<const uvec4>(rows.textureRows));
+            vulkan.upload("texture texels", std::span<const vec4>(rows.textureTexels));
+        }
+        if (guide) {
+            vulkan.upload("guide", guide->grid());
+            vulkan.upload("guide cells", guide->cells());
+            vulkan.upload("guide weights", guide->weights());
+        }
     }
 
     struct Results {

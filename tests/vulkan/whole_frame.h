@@ -11,7 +11,8 @@
 namespace clv::test {
 
 struct WholeFrame : TracedScene {
-    static constexpr std::uint32_t kRsmSide = 64, kReceivers = 500, kHalves = 1;  // both back ends draw a half from the same points
+    static constexpr std::uint32_t kSeed = 3;
+    static constexpr std::uint32_t kRsmSide = 64, kReceivers = 500, kHalves = 2;
 
     Level level;
     BrickSlots bricks;
@@ -24,6 +25,7 @@ struct WholeFrame : TracedScene {
         : TracedScene(makeBuiltinScene(name), kRsmSide, rays, false),
           level(buildLevel(volumeOverBounds(scene.bounds.lo, scene.bounds.hi, n, kClvStorageCube9, vec3(0.3f, 0.6f, 0.1f)), embree.probe(), {}, serialFor())),
           bricks(brickSlots(level)), receivers(visiblePoints(embree, kReceivers, 1)), table(level, receivers, {}, serialFor()) {
+        constants.seed = clvHashCombine(kSeed, 0u);  // as FrameRays does
         constants.halves = std::uint32_t(settings.halves = kHalves);
         constants.receiverCount = std::uint32_t(settings.receivers = receivers.size());
         settings.levels = {describeLevel(level, bricks)};
@@ -46,13 +48,13 @@ struct WholeFrame : TracedScene {
         frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f / float(number + 1), largestFlux));
     }
 
-    // Irradiance at the receivers after one frame, W/m^2.
+    // Irradiance at the receivers after one frame by each half, W/m^2.
     std::vector<vec3> onDevice(InjectWay way, ShaderLanguage language = ShaderLanguage::glsl) {
         settings.inject = way;
         VulkanFrame frame(device, lightFrame(settings), language);
         uploadTo(frame);
         frame.run({"rsm", "light", "evaluate"});
-        std::vector<vec4> read(receivers.size());
+        std::vector<vec4> read(kHalves * receivers.size());
         frame.download("irradiance 0", std::span(read));
         return {read.begin(), read.end()};
     }
@@ -64,7 +66,7 @@ struct WholeFrame : TracedScene {
         StillLightingSettings still;
         still.layout = {settings.storage, int(settings.channels)};
         still.parts = {.halves = kHalves, .chunks = 1};
-        still.seed = constants.seed, still.originOffset = constants.originOffset;
+        still.seed = kSeed, still.originOffset = constants.originOffset;
         StillLighting lighting(still, [this](std::span<ClvRay> rays) { embree.trace(rays); }, serialFor());
         const Volume& volume = lighting.addLevel(level);
         lighting.rays(sampler, settings.rays);
@@ -72,8 +74,10 @@ struct WholeFrame : TracedScene {
         lighting.inject();
         lighting.merge();
         std::vector<vec3> irradiance;
-        for (std::size_t i = 0; i < receivers.size(); ++i) {
-            irradiance.push_back(table.irradiance(i, still.layout, volume.history(0), still.layout.read(receivers[i].normal)));
+        for (int half = 0; half < int(kHalves); ++half) {
+            for (std::size_t i = 0; i < receivers.size(); ++i) {
+                irradiance.push_back(table.irradiance(i, still.layout, volume.history(half), still.layout.read(receivers[i].normal)));
+            }
         }
         return irradiance;
     }

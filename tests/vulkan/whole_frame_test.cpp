@@ -79,6 +79,8 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     vary([](LightFrameSettings& s, std::uint32_t halves) { s.halves = halves; }, 1, 2);
     vary([](LightFrameSettings& s, std::uint32_t storage) { s.storage = storage; }, kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2);
     vary([](LightFrameSettings& s, std::uint32_t channels) { s.channels = channels; }, 1, 3);
+    vary([](LightFrameSettings& s, bool turned) { s.turned = turned; }, false, true);
+    vary([](LightFrameSettings& s, std::uint64_t rows) { s.guideCells = s.guideRows = rows; }, 0, 9);
     vary([](LightFrameSettings& s, std::uint32_t rule) { s.rule = rule; }, kClvInjectTrackLength, kClvInjectThesis);
     vary([](LightFrameSettings& s, InjectWay way) { s.inject = way; }, InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint);
     vary([](LightFrameSettings& s, const std::vector<LightFrameLevel>& levels) { s.levels = levels; },

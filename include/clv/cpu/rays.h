@@ -20,13 +20,11 @@ inline void cosineDirections(int count, const float* __restrict u, const float* 
     }
 }
 
-// Resamples each direction among RayGuide::kCandidates: the one that is there, made from (u, v), and others made from shifted copies
-// of (u, v), so that every candidate stays stratified. `probability` takes up the choice.
+// Many at a time of clvGuideDirection, on arrays, to the last bit: resamples each direction, which was made from (u, v). `probability`
+// takes up the choice.
 inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, uint seed, const ClvRsmTexel* texel, const float* u, const float* v,
                              float (*direction)[TexelSampler::kBlock], float* probability) {
-    constexpr int kBlock = TexelSampler::kBlock, kCandidates = RayGuide::kCandidates;
-    // Steps of the R2 sequence (Roberts 2018).
-    constexpr float kStepU = 0.7548776662f, kStepV = 0.5698402910f;
+    constexpr int kBlock = TexelSampler::kBlock, kCandidates = int(kClvGuideCandidates);
     float x[kCandidates][kBlock], y[kCandidates][kBlock], z[kCandidates][kBlock], normal[3][kBlock];
     for (int k = 0; k < count; ++k) {
         for (int axis = 0; axis < 3; ++axis) normal[axis][k] = texel[k].normal[axis];
@@ -34,18 +32,20 @@ inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, 
     }
     for (int c = 1; c < kCandidates; ++c) {
         float shiftedU[kBlock], shiftedV[kBlock];
-        for (int k = 0; k < count; ++k) shiftedU[k] = fract(u[k] + float(c) * kStepU), shiftedV[k] = fract(v[k] + float(c) * kStepV);
+        for (int k = 0; k < count; ++k) {
+            const vec2 shifted = clvGuideCandidate(vec2(u[k], v[k]), uint(c));
+            shiftedU[k] = shifted.x, shiftedV[k] = shifted.y;
+        }
         cosineDirections(count, shiftedU, shiftedV, normal, x[c], y[c], z[c]);
     }
-    int row[kBlock];
+    uint row[kBlock];
     for (int k = 0; k < count; ++k) row[k] = guide.rowAt(texel[k].position);
     float weight[kCandidates][kBlock], sum[kBlock] = {}, left[kBlock];
     for (int c = 0; c < kCandidates; ++c) {
         guide.directionWeights(count, row, x[c], y[c], z[c], weight[c]);
         for (int k = 0; k < count; ++k) sum[k] += weight[c][k];
     }
-    const uint choiceSeed = clvHashCombine(seed, 0x6c1du);
-    for (int k = 0; k < count; ++k) left[k] = clvUnitFloat(clvHashCombine(choiceSeed, firstIndex + uint(k))) * sum[k];
+    for (int k = 0; k < count; ++k) left[k] = clvGuideChoice(firstIndex + uint(k), seed) * sum[k];
     // The first candidate at which the running sum passes what was drawn; the first of all where rounding lets none.
     float chosen[kBlock] = {};
     for (int c = kCandidates - 1; c >= 0; --c) {

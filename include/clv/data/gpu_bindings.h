@@ -49,6 +49,11 @@
 #define CLV_BIND_TEXTURE_ROWS 25   // texel buffer, RGBA32UI: see data/surface.h
 #define CLV_BIND_TEXTURE_TEXELS 26 // texel buffer, RGBA32F
 
+// What guides the rays, where anything does.
+#define CLV_BIND_GUIDE 27          // ClvVolume: the guide's grid
+#define CLV_BIND_GUIDE_CELLS 28    // uint[]: the row of each of its cells
+#define CLV_BIND_GUIDE_WEIGHTS 29  // float[]: see stages/ray_guide.h
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

@@ -17,6 +17,7 @@
 #include "../data/surface.h"
 #include "../stages/evaluate.h"
 #include "../stages/gather.h"
+#include "../stages/ray_guide.h"
 #include "frame.h"
 #include "frame_check.h"
 
@@ -48,6 +49,7 @@ struct LightFrameSettings {
     std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
     bool turned = false;               // cells keep directions along ClvFrame's axes, not along those of the grid
     std::uint32_t rule = kClvInjectTrackLength;
+    std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
     std::vector<LightFrameLevel> levels;
@@ -168,13 +170,22 @@ private:
             scene.push_back(texel(add("texture texels", CLV_BIND_TEXTURE_TEXELS, s_.textureTexels * sizeof(vec4), FrameSource::host)));
         }
 
+        Uses guide;
+        std::string guided;
+        if (s_.guideRows > 0) {
+            guided = "_guided";
+            guide = {uniform(add("guide", CLV_BIND_GUIDE, sizeof(ClvVolume), FrameSource::host)),
+                     read(add("guide cells", CLV_BIND_GUIDE_CELLS, s_.guideCells * sizeof(uint), FrameSource::host)),
+                     read(add("guide weights", CLV_BIND_GUIDE_WEIGHTS, s_.guideRows * kClvGuideRow * sizeof(float), FrameSource::host))};
+        }
+
         begin("rsm");
         pass("rsm", "rsm" + textured, groupsFor(texels), with({uniform(frame), read(lights), write(texelBuffer)}, scene));
-        pass("texel rows", "texel_rows", groupsFor(rows * CLV_GROUP_SIZE), {uniform(frame), read(texelBuffer), write(sums)});
+        pass("texel rows", "texel_rows" + guided, groupsFor(rows * CLV_GROUP_SIZE), with({uniform(frame), read(texelBuffer), write(sums)}, guide));
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
         begin("light");
-        pass("rays", "rays", groupsFor(s_.rays), {uniform(frame), read(texelBuffer), read(sums), write(rays)});
+        pass("rays", "rays" + guided, groupsFor(s_.rays), with({uniform(frame), read(texelBuffer), read(sums), write(rays)}, guide));
         if (s_.keepHits) {
             const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
             pass("trace", "trace_hits" + textured, groupsFor(s_.rays), with({uniform(frame), readWrite(rays), write(hits)}, scene));

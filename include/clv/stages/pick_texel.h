@@ -4,15 +4,8 @@
 // without flux has 1 throughout. A shader defines, before it includes this: float clvReadTexelSum(uint index).
 #ifndef CLV_STAGES_PICK_TEXEL_H
 #define CLV_STAGES_PICK_TEXEL_H
-#include "../data/rsm_texel.h"
+#include "../lang.h"
 CLV_NAMESPACE_BEGIN
-
-// A texel's chance to be picked is in proportion to this, W: its flux over all channels; 0 for one that sends no rays, or whose
-// flux is not a number that sums can hold.
-CLV_FN float clvTexelWeight(ClvRsmTexel texel) {
-    float sum = texel.flux.x + texel.flux.y + texel.flux.z;
-    return texel.valid != 0u && sum > 0.0f && sum < 1e30f ? sum : 0.0f;
-}
 
 // The place in a sequence of `count` points of the one that thread `i` takes: a permutation. In Sobol' points whose indices are
 // multiples of a power of two apart, the first two coordinates fall into the same small rectangle: neighbouring threads pick texels

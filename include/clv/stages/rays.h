@@ -7,6 +7,13 @@
 #include "../math/sampling.h"
 CLV_NAMESPACE_BEGIN
 
+// A texel's chance to be picked is in proportion to this, W: its flux over all channels; 0 for one that sends no rays, or whose
+// flux is not a number that sums can hold.
+CLV_FN float clvTexelWeight(ClvRsmTexel texel) {
+    float sum = texel.flux.x + texel.flux.y + texel.flux.z;
+    return texel.valid != 0u && sum > 0.0f && sum < 1e30f ? sum : 0.0f;
+}
+
 // A ray that carries nothing and goes nowhere: later stages skip it by maxDistance = 0.
 CLV_FN ClvRay clvDeadRay() {
     ClvRay ray;
