@@ -3,13 +3,11 @@
 // what the work costs there. CLV_DEVICE chooses the device by name.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <memory>
 
-#include <embree3/rtcore.h>
-
+#include "benchmarks/native_tracer.h"
 #include "bindings/embree/bvh.h"
 #include "bindings/embree/rsm.h"
 #include "bindings/scene/surface_rows.h"
@@ -122,40 +120,11 @@ void onHost(benchmark::State& state, const Case& c) {
     countRays(state);
 }
 
-RTCScene makeEmbreeScene(RTCDevice device, const Scene& scene) {
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    std::copy(scene.positions.begin(), scene.positions.end(),
-              static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), scene.positions.size())));
-    std::copy(scene.triangles.begin(), scene.triangles.end(),
-              static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.triangles.size())));
-    rtcCommitGeometry(geometry);
-    const RTCScene made = rtcNewScene(device);
-    rtcSetSceneBuildQuality(made, RTC_BUILD_QUALITY_HIGH);
-    rtcAttachGeometry(made, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(made);
-    return made;
-}
-
 void withEmbree(benchmark::State& state, const Case& c) {
-    const RTCDevice device = rtcNewDevice(nullptr);
-    const RTCScene scene = makeEmbreeScene(device, c.scene);
+    const NativeTracer tracer(c.scene);
     for (auto _ : state) {
-        for (const ClvRay& ray : c.rays) {
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
-            RTCRayHit query{};
-            query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y, query.ray.org_z = ray.origin.z;
-            query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y, query.ray.dir_z = ray.direction.z;
-            query.ray.tfar = ray.maxDistance;
-            query.ray.mask = ~0u;
-            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene, &context, &query);
-            benchmark::DoNotOptimize(query);
-        }
+        for (const ClvRay& ray : c.rays) benchmark::DoNotOptimize(tracer.trace(ray));
     }
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
     state.SetLabel("one thread");
     countRays(state);
 }
