@@ -14,7 +14,7 @@ enum Op : std::uint32_t { kOpCapability = 17, kOpTypeInt = 21, kOpTypeImage = 25
 enum Decoration : std::uint32_t { kSpecId = 1, kBufferBlock = 3, kNonWritable = 24, kBinding = 33, kDescriptorSet = 34 };
 enum StorageClass : std::uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
 enum Capability : std::uint32_t { kGroupNonUniformShuffle = 65, kAtomicFloat32AddExt = 6033 };
-constexpr std::uint32_t kDimBuffer = 5, kStorageImage = 2;
+constexpr std::uint32_t kDim2D = 1, kDim3D = 2, kDimBuffer = 5, kStorageImage = 2;
 
 using Words = std::span<const std::uint32_t>;
 
@@ -65,10 +65,13 @@ struct Module {
         const std::uint32_t pointee = types.at(variable[1])[3];
         if (variable[3] == kUniformConstant) {
             const std::uint32_t image = opOf(pointee) == kOpTypeSampledImage ? types.at(pointee)[2] : pointee;
-            if (opOf(image) != kOpTypeImage || types.at(image)[3] != kDimBuffer || types.at(image)[7] == kStorageImage) {
-                throw std::runtime_error("a shader binds something other than a buffer to number " + std::to_string(binding.number));
+            const std::uint32_t dimension = opOf(image) == kOpTypeImage ? types.at(image)[3] : kDimBuffer + 1;
+            const bool known = dimension == kDim2D || dimension == kDim3D || dimension == kDimBuffer;
+            if (!known || types.at(image)[7] == kStorageImage) {
+                throw std::runtime_error("a shader binds something other than a buffer or an image that it reads to number " + std::to_string(binding.number));
             }
-            binding.kind = FrameBinding::texel;
+            binding.kind = dimension == kDimBuffer ? FrameBinding::texel : FrameBinding::image;
+            binding.shape = dimension == kDim3D ? FrameShape::volume : types.at(image)[5] != 0 ? FrameShape::array : FrameShape::flat;
             binding.integers = opOf(types.at(image)[2]) == kOpTypeInt;
             return binding;
         }
@@ -85,8 +88,23 @@ std::string kindName(FrameBinding kind) {
     switch (kind) {
         case FrameBinding::uniform: return "a uniform buffer";
         case FrameBinding::texel: return "a typed view";
+        case FrameBinding::image: return "an image";
         default: return "a storage buffer";
     }
+}
+
+bool holdsIntegers(FrameFormat format) { return format == FrameFormat::rgba32Uint || format == FrameFormat::r32Uint; }
+
+// What the pass needs of the device beside its shader.
+std::vector<std::string> missingFeatures(const Frame& frame, const FramePass& pass, const VulkanFeatures& features) {
+    std::vector<std::string> lines;
+    if (pass.draws() && !features.draws) lines.push_back("pass " + pass.name + " draws, and the device's queue does not");
+    for (const FrameUse& use : pass.uses) {
+        const FrameBuffer& buffer = frame.buffers[use.buffer];
+        const bool adds = use.binding == FrameBinding::target && use.blend != FrameBlend::replace;
+        if (adds && buffer.image.format == FrameFormat::rgba32Float && !features.blendsFloats) lines.push_back("pass " + pass.name + " adds up floats of 32 bits in " + buffer.name + ", which the device does not");
+    }
+    return lines;
 }
 
 }  // namespace
@@ -105,10 +123,29 @@ ShaderInterface shaderInterface(std::span<const std::uint32_t> words) {
     return shader;
 }
 
+ShaderInterface together(const ShaderInterface& a, const ShaderInterface& b) {
+    ShaderInterface sum = a;
+    for (const ShaderBinding& binding : b.bindings) {
+        const auto same = std::find_if(sum.bindings.begin(), sum.bindings.end(), [&](const ShaderBinding& known) { return known.number == binding.number; });
+        if (same == sum.bindings.end()) {
+            sum.bindings.push_back(binding);
+        } else {
+            same->writable = same->writable || binding.writable;
+        }
+    }
+    for (const std::uint32_t id : b.constants) {
+        if (std::find(sum.constants.begin(), sum.constants.end(), id) == sum.constants.end()) sum.constants.push_back(id);
+    }
+    sum.floatAtomics = a.floatAtomics || b.floatAtomics;
+    sum.shuffles = a.shuffles || b.shuffles;
+    return sum;
+}
+
 std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& pass, const ShaderInterface& shader, const VulkanFeatures& features) {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = missingFeatures(frame, pass, features);
     const auto line = [&](const std::string& words) { lines.push_back("pass " + pass.name + ": the shader " + pass.shader + " " + words); };
     for (const FrameUse& use : pass.uses) {
+        if (!frameBinds(use)) continue;
         const FrameBuffer& buffer = frame.buffers[use.buffer];
         const auto bound = std::find_if(shader.bindings.begin(), shader.bindings.end(), [&](const ShaderBinding& b) { return b.number == buffer.binding; });
         const std::string what = buffer.name + " (binding " + std::to_string(buffer.binding) + ")";
@@ -116,7 +153,9 @@ std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& p
             line("does not bind " + what);
         } else if (bound->kind != use.binding) {
             line("binds " + what + " as " + kindName(bound->kind) + ", not as " + kindName(use.binding));
-        } else if (use.binding == FrameBinding::texel && bound->integers != (use.format == FrameFormat::rgba32Uint)) {
+        } else if (use.binding == FrameBinding::image && bound->shape != buffer.image.shape) {
+            line("reads " + what + " as an image of another shape");
+        } else if ((use.binding == FrameBinding::texel || use.binding == FrameBinding::image) && bound->integers != holdsIntegers(buffer.isImage() ? buffer.image.format : use.format)) {
             line("reads " + what + " as " + (bound->integers ? "integers, not floats" : "floats, not integers"));
         } else if (bound->writable && !frameWrites(use.access)) {
             line("may write " + what + ", which the pass only reads");
@@ -125,7 +164,7 @@ std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& p
         }
     }
     for (const ShaderBinding& bound : shader.bindings) {
-        const bool given = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const FrameUse& use) { return frame.buffers[use.buffer].binding == bound.number; });
+        const bool given = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const FrameUse& use) { return frameBinds(use) && frame.buffers[use.buffer].binding == bound.number; });
         if (!given) line("binds number " + std::to_string(bound.number) + ", for which the pass has no buffer");
     }
     for (const FrameConstant& constant : pass.constants) {

@@ -14,7 +14,8 @@ struct ShaderBinding {
     std::uint32_t number = 0;
     FrameBinding kind = FrameBinding::storage;
     bool writable = false;   // the shader does not declare it read-only
-    bool integers = false;   // of a typed view
+    bool integers = false;   // of a typed view or an image
+    FrameShape shape = FrameShape::flat;  // of an image
 };
 
 struct ShaderInterface {
@@ -25,6 +26,9 @@ struct ShaderInterface {
 
 // Throws std::runtime_error for words that are no SPIR-V.
 ShaderInterface shaderInterface(std::span<const std::uint32_t> words);
+
+// What the two shaders of a pass that draws need together.
+ShaderInterface together(const ShaderInterface& a, const ShaderInterface& b);
 
 // How the pass and its shader differ, and what the device lacks for it, a line each; empty: it may run.
 std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& pass, const ShaderInterface& shader, const VulkanFeatures& features);

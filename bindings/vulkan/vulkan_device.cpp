@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bindings/vulkan/vulkan_device_impl.h"
+#include "bindings/vulkan/vulkan_words.h"
 
 namespace clv {
 namespace {
@@ -49,8 +50,31 @@ bool hasExtension(const vk::raii::PhysicalDevice& device, const char* name) {
     return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return std::string(e.extensionName.data()) == name; });
 }
 
+// The first queue family that computes, and draws where one does both; -1 where none computes.
+int queueFamilyOf(const vk::raii::PhysicalDevice& device) {
+    const auto families = device.getQueueFamilyProperties();
+    int family = -1;
+    for (std::size_t i = families.size(); i-- > 0;) {
+        const bool computes(families[i].queueFlags & vk::QueueFlagBits::eCompute), draws(families[i].queueFlags & vk::QueueFlagBits::eGraphics);
+        const bool drawsAlready = family >= 0 && (families[std::size_t(family)].queueFlags & vk::QueueFlagBits::eGraphics);
+        if (computes && (draws || !drawsAlready)) family = int(i);
+    }
+    return family;
+}
+
+// Where the device draws lines by the diamond-exit rule if it is asked to.
+bool hasDiamondLines(const vk::raii::PhysicalDevice& device) {
+    if (!hasExtension(device, VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME)) return false;
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceLineRasterizationFeaturesEXT>();
+    return chain.get<vk::PhysicalDeviceLineRasterizationFeaturesEXT>().bresenhamLines;
+}
+
 VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
     VulkanFeatures features;
+    const int family = queueFamilyOf(device);
+    features.draws = family >= 0 && (device.getQueueFamilyProperties()[std::size_t(family)].queueFlags & vk::QueueFlagBits::eGraphics);
+    features.blendsFloats = bool(device.getFormatProperties(vulkanFormat(FrameFormat::rgba32Float)).optimalTilingFeatures & vk::FormatFeatureFlagBits::eColorAttachmentBlend);
+    features.diamondLines = hasDiamondLines(device);
     if (hasExtension(device, VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME)) {
         const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT>();
         features.floatAtomics = chain.get<vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT>().shaderBufferFloat32AtomicAdd;
@@ -71,7 +95,11 @@ FrameLimits limitsOf(const vk::raii::PhysicalDevice& device) {
             .storageBuffers = limits.maxPerStageDescriptorStorageBuffers,
             .uniformBytes = limits.maxUniformBufferRange,
             .storageBytes = std::min<std::uint64_t>(limits.maxStorageBufferRange, allocation),
-            .texelElements = limits.maxTexelBufferElements};
+            .texelElements = limits.maxTexelBufferElements,
+            .imageSide = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight}),
+            .imageLayers = limits.maxImageArrayLayers,
+            .volumeSide = limits.maxImageDimension3D,
+            .colourTargets = std::min(limits.maxColorAttachments, limits.maxFragmentOutputAttachments)};
 }
 
 std::string driverOf(const vk::raii::PhysicalDevice& device) {
@@ -94,19 +122,11 @@ VulkanDeviceInfo describe(const vk::raii::PhysicalDevice& device) {
     return info;
 }
 
-int computeFamily(const vk::raii::PhysicalDevice& device) {
-    const auto families = device.getQueueFamilyProperties();
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        if (families[i].queueFlags & vk::QueueFlagBits::eCompute) return int(i);
-    }
-    return -1;
-}
-
 // Not empty.
 std::vector<vk::raii::PhysicalDevice> usableDevices(const vk::raii::Instance& instance) {
     std::vector<vk::raii::PhysicalDevice> usable;
     for (const vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
-        if (device.getProperties().apiVersion >= VK_API_VERSION_1_1 && computeFamily(device) >= 0) usable.push_back(device);
+        if (device.getProperties().apiVersion >= VK_API_VERSION_1_1 && queueFamilyOf(device) >= 0) usable.push_back(device);
     }
     if (usable.empty()) throw std::runtime_error("Vulkan: no device with Vulkan 1.1 and compute");
     return usable;
@@ -155,7 +175,7 @@ InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule) {
 
 VulkanDevice::Impl::Impl(const VulkanOptions& options)
     : loader(options.loader), context(loader.entry()), instance(makeInstance(context, options.validate)), physical(chooseDevice(instance, options.device)),
-      info(describe(physical)), enabled(info.features), queueFamily(std::uint32_t(computeFamily(physical))),
+      info(describe(physical)), enabled(info.features), queueFamily(std::uint32_t(queueFamilyOf(physical))),
       statesBudget(hasExtension(physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME)) {
     if (options.validate) {
         using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
@@ -174,9 +194,15 @@ VulkanDevice::Impl::Impl(const VulkanOptions& options)
         extensions.push_back(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME);
     }
     enabled.floatAtomics = options.floatAtomics;
+    vk::PhysicalDeviceLineRasterizationFeaturesEXT lines;
+    lines.bresenhamLines = true;
+    if (enabled.diamondLines) extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+    void* chain = nullptr;
+    if (options.floatAtomics) chain = &atomics;
+    if (enabled.diamondLines) lines.pNext = chain, chain = &lines;
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queues({}, queueFamily, 1, &priority);
-    device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queues, {}, extensions, nullptr, options.floatAtomics ? &atomics : nullptr));
+    device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queues, {}, extensions, nullptr, chain));
     queue = vk::raii::Queue(device, queueFamily, 0);
 }
 

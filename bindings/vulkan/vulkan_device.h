@@ -1,4 +1,4 @@
-// A Vulkan device with one queue for compute, chosen by index or name.
+// A Vulkan device with one queue, chosen by index or name.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -15,6 +15,9 @@ struct VulkanFeatures {
     bool floatAtomics = false;       // 32-bit float additions in storage buffers
     std::uint32_t subgroupSize = 0;  // lanes that can shuffle in compute; 0: none can
     bool rayTracingPipelines = false;
+    bool draws = false;              // the queue takes passes that draw
+    bool blendsFloats = false;       // adds up colours of 32-bit floats in targets
+    bool diamondLines = false;       // lines by the diamond-exit rule
 };
 
 struct VulkanDeviceInfo {

@@ -2,25 +2,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <stdexcept>
 
-#include "bindings/vulkan/shader_interface.h"
-#include "bindings/vulkan/vulkan_memory.h"
+#include "bindings/vulkan/vulkan_pass.h"
+#include "bindings/vulkan/vulkan_words.h"
 
 namespace clv {
 namespace {
 
-struct Pass {
-    vk::raii::DescriptorSetLayout setLayout = nullptr;
-    vk::raii::PipelineLayout layout = nullptr;
-    vk::raii::Pipeline pipeline = nullptr;
-    std::vector<vk::raii::BufferView> views;
-    vk::raii::DescriptorSet set = nullptr;
-};
-
 struct Step {
-    std::vector<Pass> passes;
+    std::vector<VulkanPass> passes;
     vk::raii::CommandBuffer commands = nullptr;
     vk::raii::QueryPool timestamps = nullptr;
     bool hasRun = false;
@@ -31,56 +22,11 @@ struct Staged {
     vk::DeviceSize offset = 0, newBytes = 0;
 };
 
-vk::DescriptorType descriptorType(FrameBinding binding) {
-    switch (binding) {
-        case FrameBinding::uniform: return vk::DescriptorType::eUniformBuffer;
-        case FrameBinding::texel: return vk::DescriptorType::eUniformTexelBuffer;
-        default: return vk::DescriptorType::eStorageBuffer;
-    }
-}
-
-vk::BufferUsageFlags usageOf(FrameBinding binding) {
-    switch (binding) {
-        case FrameBinding::uniform: return vk::BufferUsageFlagBits::eUniformBuffer;
-        case FrameBinding::texel: return vk::BufferUsageFlagBits::eUniformTexelBuffer;
-        default: return vk::BufferUsageFlagBits::eStorageBuffer;
-    }
-}
-
-vk::Format formatOf(FrameFormat format) {
-    switch (format) {
-        case FrameFormat::rgba32Float: return vk::Format::eR32G32B32A32Sfloat;
-        case FrameFormat::rgba32Uint: return vk::Format::eR32G32B32A32Uint;
-        case FrameFormat::r32Float: return vk::Format::eR32Sfloat;
-        default: return vk::Format::eUndefined;
-    }
-}
-
-vk::PipelineStageFlags stageOf(const FramePass& pass) {
-    return pass.shader.empty() ? vk::PipelineStageFlagBits::eTransfer : vk::PipelineStageFlagBits::eComputeShader;
-}
-
-// How the pass touches the buffer.
-vk::AccessFlags accessTo(const FramePass& pass, std::uint32_t buffer) {
-    if (pass.shader.empty()) return vk::AccessFlagBits::eTransferWrite;
-    vk::AccessFlags flags;
-    for (const FrameUse& use : pass.uses) {
-        if (use.buffer != buffer) continue;
-        if (frameReads(use.access)) flags |= use.binding == FrameBinding::uniform ? vk::AccessFlagBits::eUniformRead : vk::AccessFlagBits::eShaderRead;
-        if (frameWrites(use.access)) flags |= vk::AccessFlagBits::eShaderWrite;
-    }
-    return flags;
-}
-
 // All that is done before, the host's part too, is over and visible to all that follows.
 void orderAll(const vk::raii::CommandBuffer& commands) {
     const vk::AccessFlags all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
     const vk::PipelineStageFlags stages = vk::PipelineStageFlagBits::eAllCommands | vk::PipelineStageFlagBits::eHost;
     commands.pipelineBarrier(stages, stages, {}, vk::MemoryBarrier(all, all), {}, {});
-}
-
-void throwFirst(const std::vector<std::string>& faults) {
-    if (!faults.empty()) throw std::runtime_error("the frame cannot run: " + faults.front());
 }
 
 }  // namespace
@@ -101,7 +47,7 @@ struct VulkanFrame::Impl {
     Impl(VulkanDevice::Impl& d, const Frame& f, ShaderLanguage language) : device(d), frame(f) {
         throwFirst(checkFrame(frame, device.info.limits));
         takeMemory();
-        makeDescriptorPool();
+        descriptors = makeDescriptorPool(device, frame);
         commandPool = vk::raii::CommandPool(device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
         transfer = makeCommands();
         fence = vk::raii::Fence(device.device, vk::FenceCreateInfo());
@@ -112,10 +58,11 @@ struct VulkanFrame::Impl {
 
     void takeMemory() {
         const auto copied = vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc;
+        const auto copiedImage = vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc;
         std::vector<VulkanBufferWish> wishes;
         vk::DeviceSize hostBytes = 0, largestRead = 0;
         for (const FrameBuffer& buffer : frame.buffers) {
-            VulkanBufferWish wish{buffer.bytes, copied};
+            VulkanBufferWish wish{.bytes = buffer.bytes, .usage = copied, .image = buffer.image, .imageUsage = copiedImage};
             if (buffer.readBack) wish.use = VulkanMemoryUse::download, largestRead = std::max(largestRead, wish.bytes);
             uploads.push_back({hostBytes, 0});
             if (buffer.source == FrameSource::host) wish.use = VulkanMemoryUse::upload, hostBytes += wish.bytes;
@@ -123,7 +70,10 @@ struct VulkanFrame::Impl {
         }
         for (const FrameStep& step : frame.steps) {
             for (const FramePass& pass : step.passes) {
-                for (const FrameUse& use : pass.uses) wishes[use.buffer].usage |= usageOf(use.binding);
+                for (const FrameUse& use : pass.uses) {
+                    const FrameBuffer& buffer = frame.buffers[use.buffer];
+                    buffer.isImage() ? void(wishes[use.buffer].imageUsage |= imageUsage(buffer.image, use.binding)) : void(wishes[use.buffer].usage |= bufferUsage(use.binding));
+                }
             }
         }
         buffers = makeBuffers(device, wishes);
@@ -138,72 +88,17 @@ struct VulkanFrame::Impl {
     }
 
     VulkanBuffer makeHostCopy(vk::DeviceSize bytes, VulkanMemoryUse use) const {
-        const VulkanBufferWish wish{bytes, vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc, use, true};
+        const VulkanBufferWish wish{.bytes = bytes, .usage = vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc, .use = use, .onHost = true};
         return std::move(makeBuffers(device, std::span(&wish, 1)).front());
-    }
-
-    void makeDescriptorPool() {
-        std::map<vk::DescriptorType, std::uint32_t> counts;
-        std::uint32_t sets = 0;
-        for (const FrameStep& step : frame.steps) {
-            for (const FramePass& pass : step.passes) {
-                if (pass.shader.empty()) continue;
-                ++sets;
-                for (const FrameUse& use : pass.uses) ++counts[descriptorType(use.binding)];
-            }
-        }
-        if (sets == 0) return;
-        std::vector<vk::DescriptorPoolSize> sizes;
-        for (const auto& [type, count] : counts) sizes.emplace_back(type, count);
-        descriptors = vk::raii::DescriptorPool(device.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, sizes});
     }
 
     vk::raii::CommandBuffer makeCommands() const {
         return std::move(vk::raii::CommandBuffers(device.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}).front());
     }
 
-    Pass makePass(const FramePass& pass, ShaderLanguage language) const {
-        Pass made;
-        if (pass.shader.empty()) return made;
-        const auto words = shaderCode(pass.shader, language);
-        throwFirst(shaderMismatches(frame, pass, shaderInterface(words), device.enabled));
-        std::vector<vk::DescriptorSetLayoutBinding> bindings;
-        for (const FrameUse& use : pass.uses) {
-            bindings.emplace_back(frame.buffers[use.buffer].binding, descriptorType(use.binding), 1, vk::ShaderStageFlagBits::eCompute);
-        }
-        made.setLayout = vk::raii::DescriptorSetLayout(device.device, {{}, bindings});
-        made.layout = vk::raii::PipelineLayout(device.device, {{}, *made.setLayout});
-        made.pipeline = makePipeline(pass, words, *made.layout);
-        made.set = std::move(vk::raii::DescriptorSets(device.device, {*descriptors, *made.setLayout}).front());
-        for (const FrameUse& use : pass.uses) {
-            const vk::Buffer buffer = *buffers[use.buffer].buffer;
-            const vk::DescriptorBufferInfo whole(buffer, 0, VK_WHOLE_SIZE);
-            vk::WriteDescriptorSet write(*made.set, frame.buffers[use.buffer].binding, 0, 1, descriptorType(use.binding), nullptr, &whole);
-            if (use.binding == FrameBinding::texel) {
-                made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, buffer, formatOf(use.format), 0, VK_WHOLE_SIZE));
-                write.pTexelBufferView = &*made.views.back();
-            }
-            device.device.updateDescriptorSets(write, {});
-        }
-        return made;
-    }
-
-    vk::raii::Pipeline makePipeline(const FramePass& pass, std::span<const std::uint32_t> words, vk::PipelineLayout layout) const {
-        const vk::raii::ShaderModule module(device.device, {{}, words.size_bytes(), words.data()});
-        std::vector<vk::SpecializationMapEntry> entries;
-        std::vector<std::uint32_t> values;
-        for (const FrameConstant& constant : pass.constants) {
-            entries.emplace_back(constant.id, std::uint32_t(values.size() * sizeof(std::uint32_t)), sizeof(std::uint32_t));
-            values.push_back(constant.value);
-        }
-        const vk::SpecializationInfo specialisation(std::uint32_t(entries.size()), entries.data(), values.size() * sizeof(std::uint32_t), values.data());
-        const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &specialisation);
-        return {device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
-    }
-
     Step makeStep(const FrameStep& description, ShaderLanguage language) const {
         Step step;
-        for (const FramePass& pass : description.passes) step.passes.push_back(makePass(pass, language));
+        for (const FramePass& pass : description.passes) step.passes.push_back(makePass(device, frame, pass, buffers, descriptors, language));
         const std::uint32_t stamps = std::uint32_t(description.passes.size() + 1);
         const bool timed = device.timestampPeriod > 0.0f;
         if (timed) step.timestamps = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, stamps});
@@ -213,29 +108,12 @@ struct VulkanFrame::Impl {
         orderAll(step.commands);
         if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, 0);
         for (std::size_t p = 0; p < description.passes.size(); ++p) {
-            record(step, description, p);
+            recordPass(step.commands, frame, description, p, step.passes[p], buffers);
             if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, std::uint32_t(p + 1));
         }
         orderAll(step.commands);
         step.commands.end();
         return step;
-    }
-
-    void record(const Step& step, const FrameStep& description, std::size_t p) const {
-        const FramePass& pass = description.passes[p];
-        for (const FrameBarrier& barrier : pass.barriers) {
-            const FramePass& earlier = description.passes[barrier.after];
-            const vk::BufferMemoryBarrier memory(accessTo(earlier, barrier.buffer), accessTo(pass, barrier.buffer), VK_QUEUE_FAMILY_IGNORED,
-                                                 VK_QUEUE_FAMILY_IGNORED, *buffers[barrier.buffer].buffer, 0, VK_WHOLE_SIZE);
-            step.commands.pipelineBarrier(stageOf(earlier), stageOf(pass), {}, {}, memory, {});
-        }
-        if (pass.shader.empty()) {
-            step.commands.fillBuffer(*buffers[pass.uses[0].buffer].buffer, 0, VK_WHOLE_SIZE, 0);
-            return;
-        }
-        step.commands.bindPipeline(vk::PipelineBindPoint::eCompute, *step.passes[p].pipeline);
-        step.commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *step.passes[p].layout, 0, *step.passes[p].set, {});
-        step.commands.dispatch(pass.groups.x, pass.groups.y, pass.groups.z);
     }
 
     void submitAndWait() {
@@ -275,10 +153,31 @@ struct VulkanFrame::Impl {
         }
     }
 
+    // Into the layout that allows everything, in which images stay.
+    void makeUsable(const FrameImage& image, vk::Image handle) {
+        vk::ImageMemoryBarrier barrier({}, vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
+        barrier.setSrcQueueFamilyIndex(VK_QUEUE_FAMILY_IGNORED).setDstQueueFamilyIndex(VK_QUEUE_FAMILY_IGNORED).setImage(handle);
+        barrier.setSubresourceRange({imageAspect(image), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS});
+        transfer.pipelineBarrier(vk::PipelineStageFlagBits::eTopOfPipe, vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
+    }
+
+    // The start of a buffer or image to where the host reads it.
+    void copyDown(std::size_t i, std::size_t bytes) {
+        if (!frame.buffers[i].isImage()) return transfer.copyBuffer(*buffers[i].buffer, *downloadCopy.buffer, vk::BufferCopy(0, 0, bytes));
+        const FrameImage& image = frame.buffers[i].image;
+        const bool isVolume = image.shape == FrameShape::volume;
+        const vk::ImageSubresourceLayers layers(imageAspect(image), 0, 0, isVolume ? 1 : image.extent.z);
+        const vk::Extent3D extent(image.extent.x, image.extent.y, isVolume ? image.extent.z : 1);
+        transfer.copyImageToBuffer(*buffers[i].image, vk::ImageLayout::eGeneral, *downloadCopy.buffer, vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
+    }
+
     void clearBuffers() {
         recordTransfer([&] {
             for (std::size_t i = 0; i < buffers.size(); ++i) {
-                if (frame.buffers[i].source == FrameSource::zero) transfer.fillBuffer(*buffers[i].buffer, 0, VK_WHOLE_SIZE, 0);
+                if (frame.buffers[i].isImage()) makeUsable(frame.buffers[i].image, *buffers[i].image);
+            }
+            for (std::size_t i = 0; i < buffers.size(); ++i) {
+                if (frame.buffers[i].source == FrameSource::zero) recordClear(transfer, frame.buffers[i], buffers[i]);
             }
         });
         submitAndWait();
@@ -322,7 +221,7 @@ void VulkanFrame::downloadBytes(std::string_view buffer, std::span<std::byte> by
     if (!direct) {
         inWords([&] {
             d.submission.clear();
-            d.recordTransfer([&] { d.transfer.copyBuffer(*d.buffers[i].buffer, *d.downloadCopy.buffer, vk::BufferCopy(0, 0, bytes.size())); });
+            d.recordTransfer([&] { d.copyDown(i, bytes.size()); });
             d.submitAndWait();
         });
     }

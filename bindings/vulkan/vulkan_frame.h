@@ -1,4 +1,4 @@
-// Executes a Frame on a Vulkan device: its buffers, one pipeline a pass, one command buffer a step, recorded once.
+// Executes a Frame on a Vulkan device: its buffers and images, one pipeline a pass, one command buffer a step, recorded once.
 #pragma once
 #include <cstddef>
 #include <initializer_list>
@@ -29,7 +29,7 @@ public:
     void upload(std::string_view buffer, std::span<const T> items) { uploadBytes(buffer, std::as_bytes(items)); }
     template <class T>
     void upload(std::string_view buffer, const T& item) { uploadBytes(buffer, std::as_bytes(std::span(&item, 1))); }
-    // A buffer's first items; the buffer must be one that the frame lets the host read back.
+    // A buffer's first items, or all texels of an image; it must be one that the frame lets the host read back.
     template <class T>
     void download(std::string_view buffer, std::span<T> items) { downloadBytes(buffer, std::as_writable_bytes(items)); }
 

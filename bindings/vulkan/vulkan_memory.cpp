@@ -4,6 +4,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "bindings/vulkan/vulkan_words.h"
+
 namespace clv {
 namespace {
 
@@ -68,6 +70,21 @@ std::vector<vk::DeviceSize> freeBytes(const VulkanDevice::Impl& device) {
     return free;
 }
 
+vk::raii::Image makeImage(const VulkanDevice::Impl& device, const VulkanBufferWish& wish) {
+    const FrameImage& image = wish.image;
+    const bool isVolume = image.shape == FrameShape::volume;
+    vk::ImageCreateInfo info;
+    // Slices of a volume are drawn into as layers are.
+    if (isVolume) info.flags = vk::ImageCreateFlagBits::e2DArrayCompatible;
+    info.imageType = isVolume ? vk::ImageType::e3D : vk::ImageType::e2D;
+    info.format = vulkanFormat(image.format);
+    info.extent = vk::Extent3D(image.extent.x, image.extent.y, isVolume ? image.extent.z : 1);
+    info.mipLevels = 1;
+    info.arrayLayers = isVolume ? 1 : image.extent.z;
+    info.usage = wish.imageUsage;
+    return {device.device, info};
+}
+
 std::string mebibytes(vk::DeviceSize bytes) { return std::to_string((bytes >> 20) + (bytes % (1 << 20) != 0)) + " MiB"; }
 
 }  // namespace
@@ -79,8 +96,13 @@ std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::spa
     std::vector<VulkanBuffer> buffers(wishes.size());
     std::vector<vk::MemoryAllocateInfo> allocations;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
-        buffers[i].buffer = vk::raii::Buffer(device.device, {{}, wishes[i].bytes, wishes[i].usage, vk::SharingMode::eExclusive});
-        const vk::MemoryRequirements needs = buffers[i].buffer.getMemoryRequirements();
+        const bool isImage = wishes[i].image.format != FrameFormat::none;
+        if (isImage) {
+            buffers[i].image = makeImage(device, wishes[i]);
+        } else {
+            buffers[i].buffer = vk::raii::Buffer(device.device, {{}, wishes[i].bytes, wishes[i].usage, vk::SharingMode::eExclusive});
+        }
+        const vk::MemoryRequirements needs = isImage ? buffers[i].image.getMemoryRequirements() : buffers[i].buffer.getMemoryRequirements();
         allocations.emplace_back(needs.size, kinds.choose(wishes[i], needs.memoryTypeBits));
         needed[kinds.heapOf(allocations[i].memoryTypeIndex)] += needs.size;
     }
@@ -89,6 +111,10 @@ std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::spa
     }
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         buffers[i].memory = vk::raii::DeviceMemory(device.device, allocations[i]);
+        if (wishes[i].image.format != FrameFormat::none) {
+            buffers[i].image.bindMemory(*buffers[i].memory, 0);
+            continue;
+        }
         buffers[i].buffer.bindMemory(*buffers[i].memory, 0);
         const bool mappable = wishes[i].use != VulkanMemoryUse::device && kinds.isMappable(allocations[i].memoryTypeIndex);
         if (mappable) buffers[i].mapped = static_cast<std::byte*>(buffers[i].memory.mapMemory(0, VK_WHOLE_SIZE));

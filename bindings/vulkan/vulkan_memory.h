@@ -1,15 +1,17 @@
-// Buffers of a frame: on the device, and where the host reaches them.
+// Buffers and images of a frame: on the device, and where the host reaches them.
 #pragma once
 #include <span>
 
 #include "bindings/vulkan/vulkan_device_impl.h"
+#include "clv/plan/frame.h"
 
 namespace clv {
 
-// A buffer with memory of its own.
+// A buffer or an image with memory of its own.
 struct VulkanBuffer {
     vk::raii::DeviceMemory memory = nullptr;
     vk::raii::Buffer buffer = nullptr;
+    vk::raii::Image image = nullptr;
     std::byte* mapped = nullptr;  // where the host reads and writes it, or null
 };
 
@@ -24,9 +26,11 @@ struct VulkanBufferWish {
     vk::BufferUsageFlags usage;
     VulkanMemoryUse use = VulkanMemoryUse::device;
     bool onHost = false;  // in the host's memory, for copies to and from the device's
+    FrameImage image{};   // not empty: an image
+    vk::ImageUsageFlags imageUsage{};
 };
 
-// Takes memory for all the buffers. Those that the host reads or writes come mapped where the device's memory is the host's too.
+// Takes memory for all of them. Buffers that the host reads or writes come mapped where the device's memory is the host's too.
 // Throws std::runtime_error before any is taken where they need more than is free.
 std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::span<const VulkanBufferWish> wishes);
 

@@ -3,5 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "clv/data/frame.h"
 #include "clv/stages/rsm.h"
+#include "bvh.glsl"
+#include "surface.glsl"
 #include "scene.glsl"
 #include "rsm.glsl"

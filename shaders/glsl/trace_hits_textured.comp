@@ -3,5 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "clv/data/frame.h"
 #include "clv/stages/trace.h"
-#include "textured_scene.glsl"
+#include "bvh.glsl"
+#include "textured_surface.glsl"
+#include "scene.glsl"
 #include "trace_hits.glsl"

@@ -1,9 +1,8 @@
 // The tree of boxes and its triangles, and the walk through them.
+#include "triangles.hlsli"
+
 [[vk::binding(CLV_BIND_BVH_BOXES)]] Buffer<float4> bvhBoxes;
 [[vk::binding(CLV_BIND_BVH_CHILDREN)]] Buffer<uint4> bvhChildren;
-[[vk::binding(CLV_BIND_TRIANGLES)]] Buffer<float4> triangles;
-
 float4 clvReadBvhBoxes(uint row) { return bvhBoxes.Load(int(row)); }
 uint4 clvReadBvhChildren(uint node) { return bvhChildren.Load(int(node)); }
-float4 clvReadTriangle(uint row) { return triangles.Load(int(row)); }
 #include "clv/stages/trace_bvh.h"

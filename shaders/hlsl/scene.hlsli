@@ -1,11 +1,2 @@
-// What a ray meets in a scene without textures.
-#include "bvh.hlsli"
-
-[[vk::binding(CLV_BIND_SURFACES)]] Buffer<float4> surfaces;
-float4 clvReadSurface(uint row) { return surfaces.Load(int(row)); }
-#include "clv/stages/surface.h"
-
-ClvHit sceneHit(ClvRay ray) {
-    ClvBvhHit met = clvTraceBvh(ray.origin, ray.direction, ray.maxDistance);
-    return clvHitOnSurface(met.primitive, met.distance, ray.direction);
-}
+// What a ray meets. The entry point includes before: surface.hlsli or textured_surface.hlsli.
+ClvHit sceneHit(ClvRay ray) { return surfaceHit(clvTraceBvh(ray.origin, ray.direction, ray.maxDistance), ray.direction); }

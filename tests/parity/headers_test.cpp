@@ -24,10 +24,16 @@ std::string readersOf(const std::string& header) {
         return "uvec4 clvReadTextureRow(uint row) { return uvec4(row, row, row, row); }\n"
                "vec4 clvReadTextureTexel(uint i) { return vec4(1.0, 1.0, 1.0, 1.0); }\n";
     }
+    const std::string triangles = "#ifndef TRIANGLE_READER\n#define TRIANGLE_READER\nvec4 clvReadTriangle(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n#endif\n";
+    if (header == "clv/stages/meet_triangle.h") return triangles;
+    if (header == "clv/stages/rsm_from_faces.h") {
+        return triangles + including("clv/stages/map_face.h") + "uint clvReadFaceTriangle(uvec2 texel, uint face) { return texel.x + face; }\n"
+               "ClvMapFace clvReadMapFace(uint i) { ClvMapFace face; face.origin = vec3(0.0, 0.0, 0.0); face.light = i; face.right = face.origin; face.depthScale = 1.0;\n"
+               "face.up = face.origin; face.parallel = 0u; face.forward = face.origin; face.pad0 = 0.0; return face; }\n";
+    }
     if (header == "clv/stages/trace_bvh.h") {
-        return "vec4 clvReadBvhBoxes(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n"
-               "uvec4 clvReadBvhChildren(uint node) { return uvec4(node, node, node, node); }\n"
-               "vec4 clvReadTriangle(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n";
+        return triangles + "vec4 clvReadBvhBoxes(uint row) { return vec4(0.0, 0.0, 0.0, 0.0); }\n"
+               "uvec4 clvReadBvhChildren(uint node) { return uvec4(node, node, node, node); }\n";
     }
     if (header == "clv/stages/ray_guide.h") {
         return "uint clvReadGuideCell(uint cell) { return cell; }\n"

@@ -11,6 +11,7 @@
 #include "clv/data/ray_packed.h"
 #include "clv/data/rsm_texel.h"
 #include "clv/stages/evaluate.h"
+#include "clv/stages/map_face.h"
 #include "clv/stages/merge.h"
 #include "parity/shader_stub.h"
 
@@ -54,6 +55,9 @@ const std::vector<Layout>& layouts() {
           offsetof(ClvCascades, blendCells), offsetof(ClvCascades, pad0)}},
         {"stages/evaluate.h", "ClvReceiver", sizeof(ClvReceiver),
          {offsetof(ClvReceiver, position), offsetof(ClvReceiver, pad0), offsetof(ClvReceiver, normal), offsetof(ClvReceiver, pad1)}},
+        {"stages/map_face.h", "ClvMapFace", sizeof(ClvMapFace),
+         {offsetof(ClvMapFace, origin), offsetof(ClvMapFace, light), offsetof(ClvMapFace, right), offsetof(ClvMapFace, depthScale), offsetof(ClvMapFace, up),
+          offsetof(ClvMapFace, parallel), offsetof(ClvMapFace, forward), offsetof(ClvMapFace, pad0)}},
         {"stages/merge.h", "ClvMergeSettings", sizeof(ClvMergeSettings),
          {offsetof(ClvMergeSettings, timestep), offsetof(ClvMergeSettings, stillTime), offsetof(ClvMergeSettings, movingTime),
           offsetof(ClvMergeSettings, dynamicityTime)}},

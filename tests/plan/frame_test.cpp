@@ -137,4 +137,81 @@ TEST(FrameCheck, findsWorkThatADeviceDoesNotTake) {
     expectFault([](Frame&) {}, "count uses rows of 64 elements, more than 63", {.texelElements = 63});
 }
 
+// Draws three layers into two volumes and depths, by lines whose number a pass has counted, and reads what was drawn.
+Frame drawingFrame() {
+    Frame frame;
+    frame.buffers = {{"draws", 0, 3 * sizeof(FrameDrawArguments), FrameSource::passes},
+                     frameImage("light", 1, {FrameFormat::rgba32Float, FrameShape::volume, uvec3(4, 5, 3)}),
+                     frameImage("dark", 2, {FrameFormat::rgba16Float, FrameShape::volume, uvec3(4, 5, 3)}),
+                     frameImage("depths", 3, {FrameFormat::depth32Float, FrameShape::flat, uvec3(4, 5, 1)}),
+                     {"result", 4, 256, FrameSource::passes, true}};
+    const FrameUse light{1, FrameBinding::target, FrameAccess::write, FrameFormat::none, FrameBlend::addKeepLargestAlpha};
+    const FrameUse dark{2, FrameBinding::target, FrameAccess::write}, depths{3, FrameBinding::target, FrameAccess::write};
+    frame.steps = {{"light",
+                    {{"count", "count", {}, {writes(0)}, uvec3(1), {}},
+                     {"draw", "draw", {}, {{0, FrameBinding::arguments}, light, dark, depths}, uvec3(1), {}, {FrameTopology::lines}},
+                     {"read", "read", {}, {{1, FrameBinding::image}, {2, FrameBinding::image}, writes(4)}, uvec3(1), {}}}}};
+    addBarriers(frame);
+    return frame;
+}
+
+void expectDrawingFault(const std::function<void(Frame&)>& breakIt, const std::string& words, const FrameLimits& limits = {}) {
+    Frame frame = drawingFrame();
+    breakIt(frame);
+    const std::vector<std::string> faults = checkFrame(frame, limits);
+    ASSERT_EQ(faults.size(), 1u) << words << (faults.size() > 1 ? "; " + faults[0] + "; " + faults[1] : "");
+    EXPECT_NE(faults[0].find(words), std::string::npos) << faults[0];
+}
+
+FramePass& drawOf(Frame& frame) { return frame.steps[0].passes[1]; }
+
+TEST(Drawing, isFreeOfFaultsAndStatesItsMemory) {
+    const Frame frame = drawingFrame();
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+    EXPECT_EQ(frameLayers(frame, frame.steps[0].passes[1]), 3u);
+    EXPECT_EQ(frameLayers(frame, frame.steps[0].passes[0]), 0u);
+    EXPECT_EQ(frame.bytes(), 3 * 16 + 60 * 16 + 60 * 8 + 20 * 4 + 256u);
+}
+
+TEST(Drawing, waitsForItsArgumentsAndIsWaitedFor) {
+    const Frame frame = drawingFrame();
+    const FrameStep& step = frame.steps[0];
+    ASSERT_EQ(step.passes[1].barriers.size(), 1u);
+    EXPECT_EQ(step.passes[1].barriers[0].buffer, 0u);
+    ASSERT_EQ(step.passes[2].barriers.size(), 2u);
+    EXPECT_EQ(step.passes[2].barriers[0].after, 1u);
+    expectDrawingFault([](Frame& f) { drawOf(f).barriers.clear(); }, "draw has no barrier for draws after count");
+    expectDrawingFault([](Frame& f) { f.steps[0].passes[2].barriers.pop_back(); }, "read has no barrier for dark after draw");
+}
+
+TEST(Drawing, needsToKnowHowMuchAndWhereTo) {
+    expectDrawingFault([](Frame& f) { drawOf(f).raster.vertices = 3; }, "draw must say how much it draws, once");
+    expectDrawingFault([](Frame& f) { drawOf(f).raster.topology = FrameTopology::none; }, "draw has targets and does not draw");
+    expectDrawingFault([](Frame& f) { f.buffers[0].bytes -= 16; }, "draw has no arguments for some of its draws");
+    expectDrawingFault([](Frame& f) { drawOf(f).uses[2].access = FrameAccess::read, f.buffers[2].source = FrameSource::zero; }, "draw only reads its target dark");
+    expectDrawingFault([](Frame& f) { drawOf(f).uses[3].blend = FrameBlend::add; }, "draw blends depths");
+    expectDrawingFault([](Frame& f) { f.buffers[3] = frameImage("depths", 3, {FrameFormat::depth32Float, FrameShape::flat, uvec3(5, 5, 1)}); }, "draw draws into images of different sizes");
+    expectDrawingFault([](Frame& f) { f.buffers[2] = frameImage("dark", 2, {FrameFormat::rgba16Float, FrameShape::volume, uvec3(4, 5, 2)}); }, "draw draws into images of different sizes");
+    expectDrawingFault([](Frame& f) { drawOf(f).uses = {drawOf(f).uses[0], drawOf(f).uses[3]}, f.buffers[1].source = f.buffers[2].source = FrameSource::zero; }, "draw draws into no image of colours");
+    expectDrawingFault([](Frame&) {}, "draw draws into 2 images, more than 1", {.colourTargets = 1});
+}
+
+TEST(Drawing, keepsWhatATargetHeldOnlyWhereItWasWritten) {
+    expectDrawingFault([](Frame& f) { drawOf(f).uses[1].access = FrameAccess::readWrite; }, "draw reads light, which nothing has written");
+    Frame frame = drawingFrame();
+    drawOf(frame).uses[1].access = FrameAccess::readWrite, frame.buffers[1].source = FrameSource::zero;
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+}
+
+TEST(Images, areFoundWhereADescriptionIsWrong) {
+    expectDrawingFault([](Frame& f) { f.buffers[1].bytes += 16; }, "image light has not the bytes of its texels");
+    expectDrawingFault([](Frame& f) { f.buffers[1].source = FrameSource::host; }, "image light is the host's to fill");
+    expectDrawingFault([](Frame& f) { f.buffers[1].image.shape = FrameShape::flat; }, "image light is flat and has layers");
+    expectDrawingFault([](Frame& f) { f.steps[0].passes[2].uses[0].binding = FrameBinding::storage; }, "read uses light as a buffer");
+    expectDrawingFault([](Frame& f) { f.steps[0].passes[2].uses.push_back({0, FrameBinding::image}), addBarriers(f); }, "read uses draws as an image");
+    expectDrawingFault([](Frame& f) { f.steps[0].passes[2].uses[0].access = FrameAccess::readWrite, addBarriers(f); }, "read writes light through a read-only view");
+    expectDrawingFault([](Frame& f) { f.buffers[1].image.shape = FrameShape::array; }, "image light is larger than a device takes", {.imageLayers = 2});
+    expectDrawingFault([](Frame& f) { f.buffers[1].image.shape = FrameShape::array; }, "image dark is larger than a device takes", {.volumeSide = 4});
+}
+
 }  // namespace

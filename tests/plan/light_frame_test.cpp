@@ -71,6 +71,22 @@ TEST(LightFrame, isFreeOfFaultsForEverySetting) {
     EXPECT_EQ(checked, 4u * 2 * 2 * 2 * 4 * 2 * 2);
 }
 
+// Maps that are drawn take the place of traced ones.
+TEST(LightFrame, drawsItsMapsWhereItHasFaces) {
+    LightFrameSettings settings = smallSettings();
+    settings.mapFaces = 7, settings.faceSide = 32;
+    for (const std::uint64_t textureTexels : {0u, 64u}) {
+        settings.textureTexels = textureTexels;
+        const Frame frame = lightFrame(settings);
+        EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+        EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"map faces", "rsm", "texel rows", "texel columns"}));
+        EXPECT_EQ(frameLayers(frame, frame.steps[0].passes[0]), 7u);
+        EXPECT_EQ(frame.steps[0].passes[0].raster.vertices, 300u);
+        EXPECT_EQ(frame.bytes() - lightFrame([&] { LightFrameSettings traced = settings; traced.mapFaces = 0; return traced; }()).bytes(),
+                  7 * sizeof(ClvMapFace) + (7 + 1) * 32 * 32 * sizeof(float));
+    }
+}
+
 TEST(LightFrame, hasTheStagesInTheirOrder) {
     const Frame frame = lightFrame(smallSettings(InjectWay::fixedPoint));
     EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"rsm", "texel rows", "texel columns"}));

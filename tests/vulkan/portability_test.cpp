@@ -28,6 +28,11 @@ std::string needsOf(const ShaderCode& shader) {
     return words;
 }
 
+std::string stageOf(const ShaderCode& shader) { return shader.name.ends_with(".vert") ? "vert" : shader.name.ends_with(".frag") ? "frag" : "comp"; }
+
+// What an entry point begins with in Metal.
+std::string metalKeyword(const ShaderCode& shader) { return stageOf(shader) == "vert" ? "vertex " : stageOf(shader) == "frag" ? "fragment " : "kernel void main0("; }
+
 class Portability : public testing::Test {
 protected:
     void SetUp() override {
@@ -64,10 +69,10 @@ TEST_F(Portability, coreShadersBecomeMetalAndShaderModel5) {
         if (!needsOf(shader).empty()) continue;
         writeSpirv(shader);
         EXPECT_TRUE(translates(kMetal, "shader.metal")) << nameOf(shader) << ": " << log_;
-        EXPECT_NE(readText(file("shader.metal")).find("kernel void main0("), std::string::npos) << nameOf(shader);
+        EXPECT_NE(readText(file("shader.metal")).find(metalKeyword(shader)), std::string::npos) << nameOf(shader);
         ASSERT_TRUE(translates(kShaderModel5, "shader.hlsl")) << nameOf(shader) << ": " << log_;
         // What came out is HLSL: glslang takes it, and the validator takes what that makes of it.
-        EXPECT_TRUE(runs("glslangValidator --quiet -V --target-env vulkan1.1 -D -S comp -e main --auto-map-bindings -o " + file("again.spv") + " " + file("shader.hlsl"))) << nameOf(shader) << ": " << log_;
+        EXPECT_TRUE(runs("glslangValidator --quiet -V --target-env vulkan1.1 -D -S " + stageOf(shader) + " -e main --auto-map-bindings -o " + file("again.spv") + " " + file("shader.hlsl"))) << nameOf(shader) << ": " << log_;
         EXPECT_TRUE(runs("spirv-val --target-env vulkan1.1 " + file("again.spv"))) << nameOf(shader) << ": " << log_;
         ++translated;
     }

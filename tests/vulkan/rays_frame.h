@@ -17,7 +17,7 @@ struct RaysFrame {
     Frame frame;
     ClvFrame constants{.boundsLo = vec3(0.0f), .rayCount = kRays, .boundsHi = vec3(1.0f), .halves = 2, .firstIndex = 64, .seed = 7,
                        .rsmPass = 0, .rsmSeed = 0, .rsmSide = kSide, .texelRows = kSide, .receiverCount = 0, .originOffset = 1e-3f,
-                       .axisX = vec3(0.0f), .triangleCount = 0, .axisY = vec3(0.0f), .pad0 = 0, .axisZ = vec3(0.0f), .pad1 = 0};
+                       .axisX = vec3(0.0f), .triangleCount = 0, .axisY = vec3(0.0f), .faceCount = 0, .axisZ = vec3(0.0f), .faceSide = 0};
     std::vector<ClvRsmTexel> texels = std::vector<ClvRsmTexel>(kSide * kSide);
     std::vector<float> sums;
 

@@ -73,6 +73,60 @@ TEST(ShaderInterface, tellsIntegersFromFloatsInTypedViews) {
     EXPECT_EQ(shaderMismatches(scene.frame, pass, shader, {}).size(), 1u);
 }
 
+// A frame with one pass that draws two faces, and one that reads what was drawn.
+struct DrawnFrame {
+    Frame frame;
+    ShaderInterface shaders;
+
+    DrawnFrame() {
+        frame.buffers = {{"frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host}, {"faces", CLV_BIND_MAP_FACES, 128, FrameSource::host},
+                         {"triangles", CLV_BIND_TRIANGLES, 48, FrameSource::host}, frameImage("seen", CLV_BIND_FACE_TRIANGLES, {FrameFormat::r32Uint, FrameShape::array, uvec3(8, 8, 2)})};
+        frame.steps = {{"rsm", {{"faces", "map_faces", {}, {{0, FrameBinding::uniform}, {1}, {2, FrameBinding::texel, FrameAccess::read, FrameFormat::rgba32Float}, {3, FrameBinding::target, FrameAccess::write}},
+                                 uvec3(1), {}, {FrameTopology::triangles, 3}}}}};
+    }
+    FramePass& pass() { return frame.steps[0].passes[0]; }
+};
+
+TEST(ShaderInterface, putsTheShadersOfADrawTogether) {
+    for (const ShaderLanguage language : kLanguages) {
+        const ShaderInterface both = together(shaderInterface(shaderCode("map_faces.frag", language)), shaderInterface(shaderCode("map_faces.vert", language)));
+        EXPECT_EQ(both.bindings.size(), 3u);
+        DrawnFrame drawn;
+        EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {.draws = true}), std::vector<std::string>());
+        EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {}), std::vector<std::string>{"pass faces draws, and the device's queue does not"});
+        // Integers are not added up; floats need a device that does.
+        drawn.frame.buffers[3].image.format = FrameFormat::rgba32Float;
+        drawn.pass().uses[3].blend = FrameBlend::add;
+        EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {.draws = true}).size(), 1u);
+        EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {.draws = true, .blendsFloats = true}), std::vector<std::string>());
+    }
+    const ShaderInterface a{.bindings = {{3, FrameBinding::storage, false}}, .constants = {1}, .floatAtomics = true}, b{.bindings = {{3, FrameBinding::storage, true}, {4}}, .constants = {1, 2}, .shuffles = true};
+    const ShaderInterface sum = together(a, b);
+    EXPECT_EQ(sum.bindings.size(), 2u);
+    EXPECT_TRUE(sum.bindings[0].writable);
+    EXPECT_EQ(sum.constants, (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_TRUE(sum.floatAtomics && sum.shuffles);
+}
+
+TEST(ShaderInterface, tellsImagesByTheirShapeAndTexels) {
+    for (const ShaderLanguage language : kLanguages) {
+        const ShaderInterface shader = shaderInterface(shaderCode("rsm_from_faces", language));
+        const auto image = std::find_if(shader.bindings.begin(), shader.bindings.end(), [](const ShaderBinding& b) { return b.number == CLV_BIND_FACE_TRIANGLES; });
+        ASSERT_NE(image, shader.bindings.end());
+        EXPECT_EQ(image->kind, FrameBinding::image);
+        EXPECT_EQ(image->shape, FrameShape::array);
+        EXPECT_TRUE(image->integers);
+        DrawnFrame drawn;
+        const FramePass reads{"reads", "rsm_from_faces", {}, {{3, FrameBinding::image}}, uvec3(1), {}};
+        const ShaderInterface alone{.bindings = {*image}, .constants = {}};
+        EXPECT_EQ(shaderMismatches(drawn.frame, reads, alone, {}), std::vector<std::string>());
+        drawn.frame.buffers[3].image.shape = FrameShape::volume;
+        EXPECT_NE(shaderMismatches(drawn.frame, reads, alone, {}).at(0).find("reads seen (binding 33) as an image of another shape"), std::string::npos);
+        drawn.frame.buffers[3].image = {FrameFormat::rgba32Float, FrameShape::array, uvec3(8, 8, 2)};
+        EXPECT_NE(shaderMismatches(drawn.frame, reads, alone, {}).at(0).find("reads seen (binding 33) as integers, not floats"), std::string::npos);
+    }
+}
+
 TEST(ShaderInterface, refusesWhatIsNoSpirv) {
     const std::vector<std::uint32_t> text{0x6c6c6568, 0x6f77206f, 0, 0, 0};
     EXPECT_THROW(shaderInterface(text), std::runtime_error);

@@ -8,6 +8,7 @@
 #include "bindings/vulkan/vulkan_frame.h"
 #include "clv/cpu/ray_guide.h"
 #include "clv/plan/light_frame.h"
+#include "clv/plan/map_faces.h"
 #include "support/scene_reader.h"
 
 namespace clv::test {
@@ -18,6 +19,7 @@ struct TracedScene {
     Bvh bvh;
     SurfaceRows rows;
     std::vector<ClvLight> lights;
+    std::vector<ClvMapFace> faces;
     ClvFrame constants{};
     LightFrameSettings settings;
     std::optional<RayGuide> guide;
@@ -29,7 +31,7 @@ struct TracedScene {
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
         constants.rayCount = rays, constants.halves = 2, constants.seed = 3;
         constants.rsmPass = 2, constants.rsmSeed = 5, constants.rsmSide = side, constants.texelRows = uint(lights.size()) * side;
-        constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(scene.triangles.size());
+        constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(bvh.triangles.size() / kClvTriangleRows);
         settings.lights = lights.size(), settings.rsmSide = side, settings.rays = rays, settings.halves = 2, settings.keepHits = keepHits;
         settings.triangles = scene.triangles.size(), settings.bvhNodes = bvh.children.size(), settings.textureTexels = rows.textureTexels.size();
     }
@@ -37,6 +39,13 @@ struct TracedScene {
     void guideBy(const RayGuide& learnt) {
         guide = learnt;
         settings.guideCells = learnt.cells().size(), settings.guideRows = learnt.weights().size() / kClvGuideRow;
+    }
+
+    // The maps are drawn, in pictures of faceSide^2 texels, instead of traced.
+    void drawMaps(std::uint32_t faceSide) {
+        faces = mapFaces(lights, scene.bounds.lo, scene.bounds.hi, faceSide);
+        settings.mapFaces = constants.faceCount = std::uint32_t(faces.size());
+        settings.faceSide = constants.faceSide = faceSide;
     }
 
     SceneReader reader() const { return {bvh, rows}; }
@@ -48,6 +57,7 @@ struct TracedScene {
         vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
         vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
         vulkan.upload("surfaces", std::span<const vec4>(rows.surfaces));
+        if (!faces.empty()) vulkan.upload("map faces", std::span<const ClvMapFace>(faces));
         if (settings.textureTexels > 0) {
             vulkan.upload("texture rows", std::span<const uvec4>(rows.textureRows));
             vulkan.upload("texture texels", std::span<const vec4>(rows.textureTexels));
@@ -67,7 +77,7 @@ struct TracedScene {
     };
     Results run(ShaderLanguage language) {
         Frame frame = lightFrame(settings);
-        for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || buffer.source == FrameSource::passes;
+        for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || (buffer.source == FrameSource::passes && !buffer.isImage());
         VulkanFrame vulkan(device, frame, language);
         uploadScene(vulkan);
         vulkan.run("rsm");

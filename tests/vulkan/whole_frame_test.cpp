@@ -74,6 +74,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     all[0].triangles = all[0].bvhNodes = 10, all[0].rsmSide = 8, all[0].rays = 64;
     vary([](LightFrameSettings& s, std::uint64_t lights) { s.lights = lights; }, 0, 2);
     vary([](LightFrameSettings& s, std::uint64_t texels) { s.textureTexels = texels; }, 0, 16);
+    vary([](LightFrameSettings& s, std::uint32_t faces) { s.mapFaces = faces, s.faceSide = 8; }, 0, 3);
     vary([](LightFrameSettings& s, bool keepHits) { s.keepHits = keepHits; }, false, true);
     vary([](LightFrameSettings& s, std::uint64_t receivers) { s.receivers = receivers; }, 0, 10);
     vary([](LightFrameSettings& s, std::uint32_t halves) { s.halves = halves; }, 1, 2);
@@ -86,7 +87,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     vary([](LightFrameSettings& s, const std::vector<LightFrameLevel>& levels) { s.levels = levels; },
          std::vector{levelOf({8, 8, 8, 8, 8})}, std::vector{levelOf({2, 3, 4, 5, 6}), levelOf({0, 0, 8, 8, 8})});
 
-    const VulkanFeatures features{.floatAtomics = true, .subgroupSize = 8, .rayTracingPipelines = false};
+    const VulkanFeatures features{.floatAtomics = true, .subgroupSize = 8, .rayTracingPipelines = false, .draws = true};
     std::map<std::pair<std::string, ShaderLanguage>, ShaderInterface> shaders;
     for (const ShaderCode& code : shaderCodes()) shaders[{std::string(code.name), code.language}] = shaderInterface(code.words);
     std::set<std::string> used;
@@ -95,9 +96,13 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
         for (const FrameStep& step : frame.steps) {
             for (const FramePass& pass : step.passes) {
                 if (pass.shader.empty()) continue;
-                used.insert(pass.shader);
                 for (const ShaderLanguage language : kLanguages) {
-                    ASSERT_EQ(shaderMismatches(frame, pass, shaders.at({pass.shader, language}), features), std::vector<std::string>());
+                    ShaderInterface needs;
+                    for (const std::string& name : frameShaders(pass)) {
+                        used.insert(name);
+                        needs = together(needs, shaders.at({name, language}));
+                    }
+                    ASSERT_EQ(shaderMismatches(frame, pass, needs, features), std::vector<std::string>());
                 }
             }
         }

@@ -19,11 +19,11 @@ struct ClvFrame {        // 112 bytes; of the whole frame
     uint receiverCount;
     float originOffset;  // m, >= 0: rays start this far above their surface
     vec3 axisX;          // of the axes along which cells keep directions: orthogonal, of unit length
-    uint triangleCount;
+    uint triangleCount;  // in the tree
     vec3 axisY;
-    uint pad0;
+    uint faceCount;      // of maps that are drawn
     vec3 axisZ;
-    uint pad1;
+    uint faceSide;       // texels along a side of a face
 };
 
 struct ClvLevelFrame {   // 96 bytes; of one level of the light volume

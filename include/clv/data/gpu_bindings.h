@@ -54,6 +54,11 @@
 #define CLV_BIND_GUIDE_CELLS 28    // uint[]: the row of each of its cells
 #define CLV_BIND_GUIDE_WEIGHTS 29  // float[]: see stages/ray_guide.h
 
+// Reflective shadow maps that are drawn.
+#define CLV_BIND_MAP_FACES 32      // ClvMapFace[faceCount]
+#define CLV_BIND_FACE_TRIANGLES 33 // array, R32UI, a layer a face: 1 + index of the nearest triangle in the order of the leaves, or 0
+#define CLV_BIND_FACE_DEPTHS 34    // depths of the face that is drawn
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

@@ -1,7 +1,7 @@
-// A frame of GPU work as plain data: buffers, passes, what each pass reads and writes, and the barriers between them.
+// A frame of GPU work as plain data: buffers and images, passes, what each pass reads and writes, and the barriers between them.
 //
 // The library never calls a graphics API. An engine executes a Frame with its own Vulkan, Direct3D or WebGPU layer: create the
-// buffers, fill those that the host owns, and for each step dispatch its passes in order, with their barriers before them.
+// buffers, fill those that the host owns, and for each step dispatch or draw its passes in order, with their barriers before them.
 #ifndef CLV_PLAN_FRAME_H
 #define CLV_PLAN_FRAME_H
 #include <algorithm>
@@ -15,29 +15,57 @@
 
 namespace clv {
 
-enum class FrameFormat { none, rgba32Float, rgba32Uint, r32Float };  // of an element, where a buffer is read through a typed view
+// Of an element, where a buffer is read through a typed view; of an image's texels.
+enum class FrameFormat { none, rgba32Float, rgba32Uint, r32Float, rgba16Float, r32Uint, depth32Float };
 enum class FrameSource {
     host,    // written by the host before the first frame, and whenever it likes between frames
     zero,    // zero before the first frame, then written by passes
     passes,  // a pass writes it before any reads it
 };
 
+enum class FrameShape { flat, array, volume };  // one layer; a stack of them; a 3D image, whose slices are drawn into as layers are
+
+struct FrameImage {
+    FrameFormat format = FrameFormat::none;
+    FrameShape shape = FrameShape::flat;
+    uvec3 extent{0};            // texels along x and y, layers
+};
+
+// A buffer, or an image where that has a format.
 struct FrameBuffer {
     std::string name;           // unique in the frame
     std::uint32_t binding = 0;  // CLV_BIND_...
     std::uint64_t bytes = 0;    // > 0
-    FrameSource source = FrameSource::passes;
+    FrameSource source = FrameSource::passes;  // images are never the host's
     bool readBack = false;      // the host reads it between frames
+    FrameImage image{};
+
+    bool isImage() const { return image.format != FrameFormat::none; }
 };
 
 enum class FrameAccess { read, write, readWrite };
-enum class FrameBinding { uniform, storage, texel };  // `texel`: a read-only typed view
+enum class FrameBinding {
+    uniform,
+    storage,
+    texel,      // a read-only typed view of a buffer
+    image,      // read texel by texel, without a filter
+    target,     // drawn into: colours in the order of the fragment shader's outputs, and at most one image of depths
+    arguments,  // how much each draw draws: see FrameRaster
+};
+
+// What becomes of the colour that a target holds.
+enum class FrameBlend {
+    replace,
+    add,
+    addKeepLargestAlpha,  // red, green and blue are added, alpha is the larger
+};
 
 struct FrameUse {
     std::uint32_t buffer = 0;  // index into Frame::buffers
     FrameBinding binding = FrameBinding::storage;
-    FrameAccess access = FrameAccess::read;
+    FrameAccess access = FrameAccess::read;  // a target that is written begins with zeroes; one that is changed, with what it holds
     FrameFormat format = FrameFormat::none;  // of a texel view
+    FrameBlend blend = FrameBlend::replace;  // of a colour target
 };
 
 // Before the pass runs, what `after` wrote or read in the buffer must be over, and visible.
@@ -51,6 +79,22 @@ struct FrameConstant {
     std::uint32_t value = 0;
 };
 
+enum class FrameTopology { none, triangles, lines };
+
+// How a pass draws. There is a draw for each layer of its targets; a draw tells its shaders the layer's number in a root constant (a
+// push constant in Vulkan). No vertex comes from a buffer of vertices: shaders fetch by the vertex' number. Nothing is culled.
+// Positions are in Direct3D's clip space, y up, depth from 0 to 1; the largest depth wins, and depths begin with 0, the farthest.
+// Lines are one texel wide and follow the diamond-exit rule where the API knows it; see shaders that draw any.
+struct FrameRaster {
+    FrameTopology topology = FrameTopology::none;  // none: the pass is dispatched or clears
+    std::uint32_t vertices = 0;                    // of each draw; 0: by the record of the layer in the buffer of arguments
+};
+
+// A record in a buffer of arguments, as Vulkan, Direct3D and WebGPU have it.
+struct FrameDrawArguments {
+    std::uint32_t vertices = 0, instances = 1, firstVertex = 0, firstInstance = 0;
+};
+
 struct FramePass {
     std::string name;                      // for people and timings
     std::string shader;                    // name of a file in shaders/glsl and shaders/hlsl, without its ending; empty: clear
@@ -58,6 +102,9 @@ struct FramePass {
     std::vector<FrameUse> uses;            // a pass without a shader sets its one buffer to 0
     uvec3 groups{1, 1, 1};                 // work groups
     std::vector<FrameBarrier> barriers;    // see addBarriers
+    FrameRaster raster{};                  // draws use the vertex and the fragment shader of the name
+
+    bool draws() const { return raster.topology != FrameTopology::none; }
 };
 
 // Passes that run one after another. A step begins when everything before it is over.
@@ -67,10 +114,10 @@ struct FrameStep {
 };
 
 struct Frame {
-    std::vector<FrameBuffer> buffers;
+    std::vector<FrameBuffer> buffers;  // and images
     std::vector<FrameStep> steps;
 
-    // Memory that the buffers take together, before any of it is taken.
+    // Memory that buffers and images take together, before any of it is taken.
     std::uint64_t bytes() const {
         std::uint64_t sum = 0;
         for (const FrameBuffer& buffer : buffers) sum += buffer.bytes;
@@ -84,11 +131,41 @@ struct Frame {
     }
 };
 
-// Bytes of an element of a typed view; `format` is not `none`.
-inline std::uint32_t frameFormatBytes(FrameFormat format) { return format == FrameFormat::r32Float ? 4u : 16u; }
+// Bytes of an element of a typed view, or of a texel; `format` is not `none`.
+inline std::uint32_t frameFormatBytes(FrameFormat format) {
+    if (format == FrameFormat::rgba32Float || format == FrameFormat::rgba32Uint) return 16u;
+    return format == FrameFormat::rgba16Float ? 8u : 4u;
+}
+
+inline std::uint64_t frameImageBytes(const FrameImage& image) {
+    return std::uint64_t(image.extent.x) * image.extent.y * image.extent.z * frameFormatBytes(image.format);
+}
+
+// An image that passes write before they read it.
+inline FrameBuffer frameImage(const std::string& name, std::uint32_t binding, const FrameImage& image) {
+    return {name, binding, frameImageBytes(image), FrameSource::passes, false, image};
+}
 
 inline bool frameReads(FrameAccess access) { return access != FrameAccess::write; }
 inline bool frameWrites(FrameAccess access) { return access != FrameAccess::read; }
+
+// Names of the pass's shaders: the vertex and the fragment shader of one that draws, none of one that clears.
+inline std::vector<std::string> frameShaders(const FramePass& pass) {
+    if (pass.draws()) return {pass.shader + ".vert", pass.shader + ".frag"};
+    return pass.shader.empty() ? std::vector<std::string>() : std::vector{pass.shader};
+}
+
+// Whether the use is bound to its number in the pass's shaders; targets and arguments are not.
+inline bool frameBinds(const FrameUse& use) { return use.binding != FrameBinding::target && use.binding != FrameBinding::arguments; }
+
+// Layers that a pass draws, one after another; 0 for a pass that does not draw.
+inline std::uint32_t frameLayers(const Frame& frame, const FramePass& pass) {
+    std::uint32_t layers = 0;
+    for (const FrameUse& use : pass.uses) {
+        if (use.binding == FrameBinding::target) layers = std::max(layers, frame.buffers[use.buffer].image.extent.z);
+    }
+    return layers;
+}
 
 // Work groups that cover `items` with CLV_GROUP_SIZE threads each, in rows; see clvItem.
 inline uvec3 groupsFor(std::uint64_t items) {

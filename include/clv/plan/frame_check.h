@@ -15,6 +15,10 @@ struct FrameLimits {
     std::uint64_t uniformBytes = std::uint64_t(1) << 14;  // of a uniform buffer
     std::uint64_t storageBytes = std::uint64_t(1) << 27;  // of a storage buffer
     std::uint64_t texelElements = std::uint64_t(1) << 27;  // of a typed view
+    std::uint32_t imageSide = 8192;                       // texels of a flat image or an array
+    std::uint32_t imageLayers = 256;                      // of an array
+    std::uint32_t volumeSide = 2048;                      // texels of a 3D image
+    std::uint32_t colourTargets = 8;                      // of a pass
 };
 
 namespace detail {
@@ -51,8 +55,21 @@ private:
             if (!names.insert(buffer.name).second) fault("buffer " + buffer.name + " is declared twice");
             if (buffer.bytes == 0) fault("buffer " + buffer.name + " has no bytes");
             if (buffer.bytes % 4 != 0) fault("buffer " + buffer.name + " is no whole number of words of 4 bytes");
+            if (buffer.isImage()) checkImage(buffer);
             filled_[i] = buffer.source != FrameSource::passes;
             wanted_[i] = buffer.readBack;
+        }
+    }
+
+    void checkImage(const FrameBuffer& buffer) {
+        const FrameImage& image = buffer.image;
+        const std::uint32_t most = std::max(image.extent.x, image.extent.y);
+        if (buffer.bytes != frameImageBytes(image)) fault("image " + buffer.name + " has not the bytes of its texels");
+        if (buffer.source == FrameSource::host) fault("image " + buffer.name + " is the host's to fill");
+        if (image.shape == FrameShape::flat && image.extent.z != 1) fault("image " + buffer.name + " is flat and has layers");
+        const bool isVolume = image.shape == FrameShape::volume;
+        if (std::max(most, isVolume ? image.extent.z : 0u) > (isVolume ? limits_.volumeSide : limits_.imageSide) || (!isVolume && image.extent.z > limits_.imageLayers)) {
+            fault("image " + buffer.name + " is larger than a device takes");
         }
     }
 
@@ -77,6 +94,33 @@ private:
             }
         }
         if (storage > limits_.storageBuffers) fault("pass " + pass.name + " has " + std::to_string(storage) + " storage buffers, more than " + std::to_string(limits_.storageBuffers));
+        checkDraws(pass);
+    }
+
+    // What a pass draws into, and how much.
+    void checkDraws(const FramePass& pass) {
+        std::uint32_t colours = 0, depths = 0, arguments = 0;
+        const uvec3* extent = nullptr;
+        for (const FrameUse& use : pass.uses) {
+            if (use.binding == FrameBinding::arguments) ++arguments;
+            if (use.binding != FrameBinding::target || !isDeclared(use)) continue;
+            const FrameImage& image = frame_.buffers[use.buffer].image;
+            const bool isDepth = image.format == FrameFormat::depth32Float;
+            ++(isDepth ? depths : colours);
+            if (isDepth && use.blend != FrameBlend::replace) fault("pass " + pass.name + " blends depths");
+            // One layer of depths serves all draws, one after another.
+            const bool fits = extent == nullptr || (image.extent.x == extent->x && image.extent.y == extent->y && ((isDepth && image.extent.z == 1) || image.extent.z == extent->z));
+            if (!fits) fault("pass " + pass.name + " draws into images of different sizes");
+            if (extent == nullptr) extent = &image.extent;
+        }
+        if (!pass.draws()) {
+            if (colours + depths + arguments > 0) fault("pass " + pass.name + " has targets and does not draw");
+            return;
+        }
+        if (colours == 0) fault("pass " + pass.name + " draws into no image of colours");
+        if (colours > limits_.colourTargets) fault("pass " + pass.name + " draws into " + std::to_string(colours) + " images, more than " + std::to_string(limits_.colourTargets));
+        if (depths > 1) fault("pass " + pass.name + " has two images of depths");
+        if (arguments > 1 || (arguments == 1) == (pass.raster.vertices > 0)) fault("pass " + pass.name + " must say how much it draws, once");
     }
 
     void checkBarriers(const FrameStep& step, std::uint32_t p) {
@@ -89,7 +133,11 @@ private:
         const FramePass& pass = step.passes[p];
         const FrameBuffer& buffer = frame_.buffers[use.buffer];
         used_[use.buffer] = true;
-        if (use.binding != FrameBinding::storage && frameWrites(use.access)) fault("pass " + pass.name + " writes " + buffer.name + " through a read-only view");
+        const bool isTarget = use.binding == FrameBinding::target;
+        if (use.binding != FrameBinding::storage && !isTarget && !pass.shader.empty() && frameWrites(use.access)) fault("pass " + pass.name + " writes " + buffer.name + " through a read-only view");
+        if (isTarget && !frameWrites(use.access)) fault("pass " + pass.name + " only reads its target " + buffer.name);
+        if (buffer.isImage() != (isTarget || use.binding == FrameBinding::image)) fault("pass " + pass.name + " uses " + buffer.name + (buffer.isImage() ? " as a buffer" : " as an image"));
+        if (use.binding == FrameBinding::arguments && buffer.bytes < frameLayers(frame_, pass) * sizeof(FrameDrawArguments)) fault("pass " + pass.name + " has no arguments for some of its draws");
         if ((use.binding == FrameBinding::texel) != (use.format != FrameFormat::none)) fault("pass " + pass.name + " uses " + buffer.name + " with a format where it has none, or without");
         checkSize(pass, buffer, use);
         if (frameReads(use.access)) {
@@ -97,6 +145,7 @@ private:
             wanted_[use.buffer] = true;
         }
         if (frameWrites(use.access)) filled_[use.buffer] = true;
+        if (buffer.image.format == FrameFormat::depth32Float) wanted_[use.buffer] = true;  // by the test of depths itself
         for (std::uint32_t q : framePrerequisites(step, p, use.buffer, use.access)) {
             const bool ordered = std::any_of(pass.barriers.begin(), pass.barriers.end(), [&](const FrameBarrier& b) { return b.buffer == use.buffer && b.after == q; });
             if (!ordered) fault("pass " + pass.name + " has no barrier for " + buffer.name + " after " + step.passes[q].name);
@@ -106,6 +155,7 @@ private:
     void checkSize(const FramePass& pass, const FrameBuffer& buffer, const FrameUse& use) {
         std::uint64_t size = buffer.bytes, most = limits_.storageBytes;
         const char* unit = " bytes";
+        if (buffer.isImage()) return;  // see checkImage
         if (use.binding == FrameBinding::uniform) most = limits_.uniformBytes;
         if (use.format != FrameFormat::none) {
             size = buffer.bytes / frameFormatBytes(use.format), most = limits_.texelElements, unit = " elements";

@@ -17,6 +17,7 @@
 #include "../data/surface.h"
 #include "../stages/evaluate.h"
 #include "../stages/gather.h"
+#include "../stages/map_face.h"
 #include "../stages/ray_guide.h"
 #include "frame.h"
 #include "frame_check.h"
@@ -44,6 +45,7 @@ struct LightFrameSettings {
     // Without lights the frame begins with rays that the host, or the engine's own tracer, has written and cut.
     std::uint64_t lights = 0, rsmSide = 0, triangles = 0, bvhNodes = 0;
     std::uint64_t textureTexels = 0;   // of all textures together; 0: a scene without any
+    std::uint32_t mapFaces = 0, faceSide = 0;  // > 0: reflective shadow maps are drawn, in so many pictures; see plan/map_faces.h
     std::uint64_t rays = 0;            // a frame
     std::uint64_t receivers = 0;       // 0: no evaluate step
     std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
@@ -146,9 +148,18 @@ private:
         frame_.buffers.push_back({name, binding, bytes, source, readBack});
         return std::uint32_t(frame_.buffers.size() - 1);
     }
+    std::uint32_t addImage(const std::string& name, std::uint32_t binding, const FrameImage& image) {
+        frame_.buffers.push_back(frameImage(name, binding, image));
+        return std::uint32_t(frame_.buffers.size() - 1);
+    }
     void begin(const std::string& step) { frame_.steps.push_back({step, {}}); }
     void pass(const std::string& name, const std::string& shader, const uvec3& groups, Uses uses, Constants constants = {}) {
-        frame_.steps.back().passes.push_back({name, shader, std::move(constants), std::move(uses), groups, {}});
+        frame_.steps.back().passes.push_back({name, shader, std::move(constants), std::move(uses), groups, {}, {}});
+    }
+
+    void draw(const std::string& name, const std::string& shader, const FrameRaster& raster, Uses uses, Constants constants = {}) {
+        pass(name, shader, uvec3(1), std::move(uses), std::move(constants));
+        frame_.steps.back().passes.back().raster = raster;
     }
 
     // The steps that end with this frame's rays, cut.
@@ -180,7 +191,16 @@ private:
         }
 
         begin("rsm");
-        pass("rsm", "rsm" + textured, groupsFor(texels), with({uniform(frame), read(lights), write(texelBuffer)}, scene));
+        if (s_.mapFaces > 0) {
+            const auto faces = add("map faces", CLV_BIND_MAP_FACES, s_.mapFaces * sizeof(ClvMapFace), FrameSource::host);
+            const auto seen = addImage("face triangles", CLV_BIND_FACE_TRIANGLES, {FrameFormat::r32Uint, FrameShape::array, uvec3(s_.faceSide, s_.faceSide, s_.mapFaces)});
+            const auto depths = addImage("face depths", CLV_BIND_FACE_DEPTHS, {FrameFormat::depth32Float, FrameShape::flat, uvec3(s_.faceSide, s_.faceSide, 1)});
+            draw("map faces", "map_faces", {FrameTopology::triangles, std::uint32_t(3 * s_.triangles)}, {uniform(frame), read(faces), texel(triangles), target(seen), target(depths)});
+            Uses found = with({uniform(frame), read(lights), read(faces), image(seen), write(texelBuffer), texel(triangles)}, {scene.begin() + std::ptrdiff_t(tree.size()), scene.end()});
+            pass("rsm", "rsm_from_faces" + textured, groupsFor(texels), std::move(found));
+        } else {
+            pass("rsm", "rsm" + textured, groupsFor(texels), with({uniform(frame), read(lights), write(texelBuffer)}, scene));
+        }
         pass("texel rows", "texel_rows" + guided, groupsFor(rows * CLV_GROUP_SIZE), with({uniform(frame), read(texelBuffer), write(sums)}, guide));
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
@@ -242,10 +262,12 @@ private:
     Constants recordConstants() const {
         return {{CLV_SPEC_STORAGE, s_.storage}, {CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_STRIDE, frameStride(s_)}, {CLV_SPEC_TURNED, s_.turned ? 1u : 0u}};
     }
-    static FrameUse uniform(std::uint32_t b) { return {b, FrameBinding::uniform, FrameAccess::read, FrameFormat::none}; }
+    static FrameUse uniform(std::uint32_t b) { return {b, FrameBinding::uniform}; }
     static FrameUse read(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::read, FrameFormat::none}; }
     static FrameUse write(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::write, FrameFormat::none}; }
     static FrameUse readWrite(std::uint32_t b) { return {b, FrameBinding::storage, FrameAccess::readWrite, FrameFormat::none}; }
+    static FrameUse image(std::uint32_t b) { return {b, FrameBinding::image, FrameAccess::read, FrameFormat::none}; }
+    static FrameUse target(std::uint32_t b, FrameBlend blend = FrameBlend::replace) { return {b, FrameBinding::target, FrameAccess::write, FrameFormat::none, blend}; }
     static FrameUse texel(std::uint32_t b, FrameFormat format = FrameFormat::rgba32Float) { return {b, FrameBinding::texel, FrameAccess::read, format}; }
     static Uses with(Uses uses, const Uses& more) {
         uses.insert(uses.end(), more.begin(), more.end());

@@ -4,16 +4,8 @@
 // vec4 clvReadTriangle(uint row).
 #ifndef CLV_STAGES_TRACE_BVH_H
 #define CLV_STAGES_TRACE_BVH_H
-#include "../data/bvh.h"
-#include "../data/hit.h"
+#include "meet_triangle.h"
 CLV_NAMESPACE_BEGIN
-
-struct ClvBvhHit {
-    float distance;  // m, > 0; how far the ray reaches where nothing was met
-    uint primitive;  // index of the triangle in the scene; kClvNoPrimitive where nothing was met
-    float u;         // barycentric coordinates of the second and the third corner
-    float v;
-};
 
 struct ClvBoxSpans {
     vec4 enter;      // m along the ray, >= 0, a component a child
@@ -42,31 +34,6 @@ CLV_READER_FN ClvBoxSpans clvSpansInBoxes(CLV_READER uint node, vec3 origin, vec
     return spans;
 }
 
-// `best`, or the triangle at `index` in the order of the leaves if the ray meets it nearer: Moller and Trumbore (1997) with the
-// distance from the triangle's normal, which keeps the hit on the surface of long thin triangles, too.
-CLV_READER_FN ClvBvhHit clvMeetTriangle(CLV_READER uint index, vec3 origin, vec3 direction, ClvBvhHit best) {
-    vec4 row0 = CLV_READ clvReadTriangle(index * kClvTriangleRows);
-    vec4 row1 = CLV_READ clvReadTriangle(index * kClvTriangleRows + 1u);
-    vec4 row2 = CLV_READ clvReadTriangle(index * kClvTriangleRows + 2u);
-    vec3 edge1 = vec3(row1.x, row1.y, row1.z);
-    vec3 edge2 = vec3(row2.x, row2.y, row2.z);
-    vec3 toCorner = vec3(row0.x, row0.y, row0.z) - origin;
-    vec3 normal = cross(edge1, edge2);
-    vec3 moment = cross(toCorner, direction);
-    float inverse = 1.0f / dot(normal, direction);
-    float u = dot(moment, edge2) * inverse;
-    float v = -dot(moment, edge1) * inverse;
-    float distance = dot(normal, toCorner) * inverse;
-    // A ray in the triangle's plane gives infinities or NaN, which do not pass all of these.
-    if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > 0.0f && distance < best.distance) {
-        best.distance = distance;
-        best.primitive = uint(row0.w) | (uint(row1.w) << 16);
-        best.u = u;
-        best.v = v;
-    }
-    return best;
-}
-
 // The nearest triangle that the ray meets at a distance above 0 and below maxDistance (m), on either of its sides. Two triangles at
 // the same distance: either. A ray that is not finite meets nothing.
 //
@@ -75,11 +42,7 @@ CLV_READER_FN ClvBvhHit clvMeetTriangle(CLV_READER uint index, vec3 origin, vec3
 CLV_READER_FN ClvBvhHit clvTraceBvh(CLV_READER vec3 origin, vec3 direction, float maxDistance) {
     vec3 inverse = vec3(clvInverseOfComponent(direction.x), clvInverseOfComponent(direction.y), clvInverseOfComponent(direction.z));
     uvec3 backward = uvec3(inverse.x < 0.0f ? 1u : 0u, inverse.y < 0.0f ? 1u : 0u, inverse.z < 0.0f ? 1u : 0u);
-    ClvBvhHit best;
-    best.distance = maxDistance;
-    best.primitive = kClvNoPrimitive;
-    best.u = 0.0f;
-    best.v = 0.0f;
+    ClvBvhHit best = clvNoTriangle(maxDistance);
     uint stack[kClvBvhStack];
     uint waiting = 0u;
     uint next = 0u;

@@ -1,6 +1,4 @@
-// What a ray meets in a scene with textures.
-#include "bvh.hlsli"
-
+// What a ray finds on a triangle in a scene with textures.
 [[vk::binding(CLV_BIND_SURFACES)]] Buffer<float4> surfaces;
 [[vk::binding(CLV_BIND_TEXTURE_ROWS)]] Buffer<uint4> textureRows;
 [[vk::binding(CLV_BIND_TEXTURE_TEXELS)]] Buffer<float4> textureTexels;
@@ -10,9 +8,8 @@ float4 clvReadTextureTexel(uint index) { return textureTexels.Load(int(index)); 
 #include "clv/stages/surface.h"
 #include "clv/stages/texture.h"
 
-ClvHit sceneHit(ClvRay ray) {
-    ClvBvhHit met = clvTraceBvh(ray.origin, ray.direction, ray.maxDistance);
-    ClvHit hit = clvHitOnSurface(met.primitive, met.distance, ray.direction);
+ClvHit surfaceHit(ClvBvhHit met, float3 direction) {
+    ClvHit hit = clvHitOnSurface(met.primitive, met.distance, direction);
     if (met.primitive != kClvNoPrimitive) hit.albedo *= clvTextureOn(met.primitive, met.u, met.v);
     return hit;
 }

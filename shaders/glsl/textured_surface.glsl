@@ -1,6 +1,4 @@
-// What a ray meets in a scene with textures.
-#include "bvh.glsl"
-
+// What a ray finds on a triangle in a scene with textures.
 layout(binding = CLV_BIND_SURFACES) uniform samplerBuffer surfaces;
 layout(binding = CLV_BIND_TEXTURE_ROWS) uniform usamplerBuffer textureRows;
 layout(binding = CLV_BIND_TEXTURE_TEXELS) uniform samplerBuffer textureTexels;
@@ -10,9 +8,8 @@ vec4 clvReadTextureTexel(uint index) { return texelFetch(textureTexels, int(inde
 #include "clv/stages/surface.h"
 #include "clv/stages/texture.h"
 
-ClvHit sceneHit(ClvRay ray) {
-    ClvBvhHit met = clvTraceBvh(ray.origin, ray.direction, ray.maxDistance);
-    ClvHit hit = clvHitOnSurface(met.primitive, met.distance, ray.direction);
+ClvHit surfaceHit(ClvBvhHit met, vec3 direction) {
+    ClvHit hit = clvHitOnSurface(met.primitive, met.distance, direction);
     if (met.primitive != kClvNoPrimitive) hit.albedo *= clvTextureOn(met.primitive, met.u, met.v);
     return hit;
 }

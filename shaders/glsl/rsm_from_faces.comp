@@ -1,0 +1,10 @@
+// The reflective shadow maps of all lights, from what was drawn, in a scene without textures.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "clv/data/frame.h"
+#include "clv/stages/map_face.h"
+#include "clv/stages/rsm.h"
+#include "triangles.glsl"
+#include "surface.glsl"
+#include "rsm_from_faces.glsl"
