@@ -326,7 +326,7 @@ private:
             addLevel(*next);
             inject(*lighting_, lighting_->volumes().back());
         }
-        clock_.time("choose", [&] { mix_ = chooseLevels(estimates_, factor); });
+        mix_ = chooseLevels(errors);
         settled_ = settled_ || settled;
         if (!settled_) return;
         for (int l = errors.count; l-- > 0;) {

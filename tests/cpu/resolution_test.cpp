@@ -48,13 +48,6 @@ TEST(Resolution, halvesTellBiasFromNoise) {
     EXPECT_EQ(errors.bias[0][1], errors.bias[1][0]);
 }
 
-TEST(Resolution, everySecondReceiverSaysTheSame) {
-    const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.0f, 0.2f, 20)};
-    const LevelErrors all = judgeLevels(levels), even = judgeLevels(levels, 0, 2), odd = judgeLevels(levels, 1, 2);
-    EXPECT_NEAR(0.5 * (even.noise[0][0] + odd.noise[0][0]), all.noise[0][0], 1e-9);
-    EXPECT_NEAR(even.bias[0][0], odd.bias[0][0], 0.01);
-}
-
 TEST(Resolution, moreRaysCutTheNoiseButNotTheBias) {
     const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.0f, 0.4f, 20)};
     const LevelErrors now = judgeLevels(levels), later = now.withRays(std::vector<double>{4.0, 16.0});
@@ -124,21 +117,42 @@ TEST(Resolution, darknessIsShownByTheFinestLevel) {
     EXPECT_EQ(bestMix(judgeLevels(dark))[2], 1.0);
 }
 
-TEST(Resolution, aLevelStandsAloneUnlessAMixIsClearlyBetter) {
-    const std::vector<double> same(2, 1.0);
+TEST(Resolution, levelsOfHardlyAnyWeightAreLeftOut) {
+    const LevelMix mix = bestMix(diagonal({0.0, 0.0}, {1.0, 99.0}));
+    EXPECT_EQ(mix[0], 1.0);
+    EXPECT_EQ(mix[1], 0.0);
+}
+
+TEST(Resolution, aPartOfTheLevelsIsJudgedAgainstItsOwnFinest) {
+    const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.1f, 0.2f, 20), levelWith(0.0f, 0.4f, 30)};
+    const LevelErrors part = judgeLevels(levels).between(0, 1), alone = judgeLevels(std::span(levels).first(2));
+    ASSERT_EQ(part.count, 2);
+    for (int l = 0; l < 2; ++l) {
+        for (int m = 0; m < 2; ++m) {
+            EXPECT_NEAR(part.bias[l][m], alone.bias[l][m], 1e-6) << l << m;
+            EXPECT_DOUBLE_EQ(part.noise[l][m], alone.noise[l][m]) << l << m;
+        }
+    }
+}
+
+TEST(Resolution, whatIsShownIsTheBestLevelAndItsNeighbours) {
     // The coarse level is biased beyond use: nothing to gain.
-    const LevelMix alone = chooseLevels(std::vector<HalfEstimates>{levelWith(2.0f, 0.1f, 10), levelWith(0.0f, 0.2f, 20)}, same);
-    EXPECT_EQ(alone[1], 1.0);
+    EXPECT_EQ(chooseLevels(judgeLevels(std::vector<HalfEstimates>{levelWith(2.0f, 0.1f, 10), levelWith(0.0f, 0.2f, 20)}))[1], 1.0);
     // Two levels of equal, independent noise: the mean of both halves the squared error.
-    const LevelMix both = chooseLevels(std::vector<HalfEstimates>{levelWith(0.0f, 0.3f, 30), levelWith(0.0f, 0.3f, 40)}, same);
-    EXPECT_GT(both[0], 0.2);
+    const LevelMix both = chooseLevels(judgeLevels(std::vector<HalfEstimates>{levelWith(0.0f, 0.3f, 30), levelWith(0.0f, 0.3f, 40)}));
+    EXPECT_NEAR(both[0], 0.5, 0.02);
     EXPECT_NEAR(both[0] + both[1], 1.0, 1e-12);
+    // The third level would help, but it is no neighbour of the best.
+    const LevelMix near = chooseLevels(diagonal({0.0, 0.0, 0.0}, {1.0, 2.0, 2.0}));
+    EXPECT_NEAR(near[0], 2.0 / 3.0, 1e-12);
+    EXPECT_NEAR(near[1], 1.0 / 3.0, 1e-12);
+    EXPECT_EQ(near[2], 0.0);
 }
 
 TEST(Resolution, raysToComeFavourTheFinerLevel) {
-    const std::vector<HalfEstimates> levels = {levelWith(0.2f, 0.02f, 10), levelWith(0.0f, 0.9f, 20)};
-    EXPECT_GT(chooseLevels(levels, std::vector<double>(2, 1.0))[0], 0.9);
-    EXPECT_GT(chooseLevels(levels, std::vector<double>(2, 1000.0))[1], 0.9);
+    const LevelErrors now = judgeLevels(std::vector<HalfEstimates>{levelWith(0.2f, 0.02f, 10), levelWith(0.0f, 0.9f, 20)});
+    EXPECT_GT(chooseLevels(now)[0], 0.9);
+    EXPECT_GT(chooseLevels(now.withRays(std::vector<double>(2, 1000.0)))[1], 0.9);
 }
 
 }  // namespace

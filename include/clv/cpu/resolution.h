@@ -9,8 +9,9 @@
 // The mean squared error of sum(c_l * level l) with sum(c) = 1 is c' (bias + noise) c. With more rays of the same kind the noise falls
 // as their number, so errors can be foretold.
 //
-// One level is chosen by its own figure. A mix has more freedom to follow the noise of the judgement itself, so it is taken only if
-// it also wins on receivers that had no part in finding it.
+// Shown is the mix of the best level and its neighbours that errs least. Where levels are nearly level, and the judgement could go
+// either way, it gives to each its part; levels further away are left out, since a mix of many follows the noise of the judgement
+// itself.
 #ifndef CLV_CPU_RESOLUTION_H
 #define CLV_CPU_RESOLUTION_H
 #include <algorithm>
@@ -46,6 +47,18 @@ struct LevelErrors {
     // The mean squared error of a level over that of the next finer one, the bias that both may share left aside.
     double overNextFiner(int l) const { return (biasBetween(l, l + 1) + noise[l][l]) / noise[l + 1][l + 1]; }
 
+    // Levels first to last alone, their biases against the last one.
+    LevelErrors between(int first, int last) const {
+        LevelErrors part;
+        part.count = last - first + 1;
+        for (int l = 0; l < part.count; ++l) {
+            for (int m = 0; m < part.count; ++m) {
+                part.noise[l][m] = noise[first + l][first + m];
+                part.bias[l][m] = bias[first + l][first + m] - bias[first + l][last] - bias[last][first + m] + bias[last][last];
+            }
+        }
+        return part;
+    }
     // The same, if level l had factor[l] times as many rays.
     LevelErrors withRays(std::span<const double> factor) const {
         LevelErrors later = *this;
@@ -55,17 +68,17 @@ struct LevelErrors {
     }
 };
 
-// Levels coarse to fine; all hold as many receivers. Only receivers first, first + step, ... take part.
-inline LevelErrors judgeLevels(std::span<const HalfEstimates> levels, std::size_t first = 0, std::size_t step = 1) {
+// Levels coarse to fine; all hold as many receivers.
+inline LevelErrors judgeLevels(std::span<const HalfEstimates> levels) {
     LevelErrors errors;
     errors.count = int(levels.size());
     const HalfEstimates& finest = levels.back();
     const std::size_t receivers = finest.half[0].size();
-    const double scale = double(step) / (3.0 * double(std::max<std::size_t>(receivers, 1)));
+    const double scale = 1.0 / (3.0 * double(std::max<std::size_t>(receivers, 1)));
     for (int l = 0; l < errors.count; ++l) {
         for (int m = l; m < errors.count; ++m) {
             double noise = 0.0, bias = 0.0;
-            for (std::size_t i = first; i < receivers; i += step) {
+            for (std::size_t i = 0; i < receivers; ++i) {
                 const vec3 a = levels[l].half[0][i], b = levels[l].half[1][i], c = levels[m].half[0][i], d = levels[m].half[1][i];
                 noise += dot(a - b, c - d);
                 // Both ways round, so that the matrix is symmetric.
@@ -116,14 +129,15 @@ inline bool solveMix(const LevelErrors& errors, unsigned subset, std::array<doub
 
 using LevelMix = std::array<double, kMostLevels>;
 
-// The mix of levels with weights >= 0 that errs least. Weights sum to 1.
+// The mix of levels that errs least. Weights sum to 1; each is 0 or at least kLeastWeight, below which a level is not worth reading.
 inline LevelMix bestMix(const LevelErrors& errors) {
+    constexpr double kLeastWeight = 0.05;
     LevelMix best{};
     double least = 1e300;
     for (unsigned subset = 1; subset < (1u << errors.count); ++subset) {
         LevelMix mix;
         if (!detail::solveMix(errors, subset, mix)) continue;
-        if (std::any_of(mix.begin(), mix.end(), [](double w) { return w < 0.0; })) continue;
+        if (std::any_of(mix.begin(), mix.end(), [](double w) { return w < kLeastWeight && w != 0.0; })) continue;
         const double error = errors.meanSquare(mix);
         if (error < least) least = error, best = mix;
     }
@@ -148,19 +162,13 @@ inline bool staysInPlay(const LevelErrors& errors, int level) {
     return level == best;
 }
 
-// What to show: the best level, or the best mix where that is better by a clear margin. `factor`: see LevelErrors::withRays.
-inline LevelMix chooseLevels(std::span<const HalfEstimates> levels, std::span<const double> factor) {
-    constexpr double kClearGain = 0.1;  // of the mean squared error
-    const LevelErrors all = judgeLevels(levels).withRays(factor);
-    const LevelErrors parts[2] = {judgeLevels(levels, 0, 2).withRays(factor), judgeLevels(levels, 1, 2).withRays(factor)};
-    LevelMix single{};
-    single[bestLevel(all)] = 1.0;
-    double mixed = 0.0, alone = 0.0;
-    for (int k = 0; k < 2; ++k) {
-        mixed += parts[1 - k].meanSquare(bestMix(parts[k]));
-        alone += parts[1 - k].meanSquare(single);
-    }
-    return mixed < (1.0 - kClearGain) * alone ? bestMix(all) : single;
+// What to show: the best level and its neighbours, mixed.
+inline LevelMix chooseLevels(const LevelErrors& errors) {
+    const int best = bestLevel(errors), first = std::max(best - 1, 0), last = std::min(best + 1, errors.count - 1);
+    const LevelMix part = bestMix(errors.between(first, last));
+    LevelMix mix{};
+    std::copy_n(part.begin(), last - first + 1, mix.begin() + first);
+    return mix;
 }
 
 }  // namespace clv
