@@ -98,7 +98,7 @@ struct CpuScene {
     std::vector<StoredBuffer> levelBuffers(const LightFrameSettings& settings) const {
         const std::vector<uint> ends(table.ends().begin(), table.ends().end());
         return {buffer("level 0", levelConstants(level, bricks, settings, 1.0f, float(sampler.totalFlux()))), buffer("table 0", level.table), buffer("splits 0", level.splits),
-                buffer("slots 0", level.slots), buffer("brick slots 0", bricks.slots), buffer("receivers", receivers), buffer("lookup ends 0", ends),
+                buffer("slots 0", level.slots), buffer("brick slots 0", bricks.slots), buffer("brick mask 0", bricks.mask), buffer("receivers", receivers), buffer("lookup ends 0", ends),
                 buffer("lookup slots 0", table.slots()), buffer("lookup weights 0", table.weights())};
     }
 

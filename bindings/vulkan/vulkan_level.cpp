@@ -39,6 +39,7 @@ void uploadLevel(VulkanFrame& frame, const LightFrameSettings& settings, std::si
     if (!gathers(settings.inject)) return;
     frame.upload("slots" + name, std::span(level.slots));
     frame.upload("brick slots" + name, std::span(bricks.slots));
+    frame.upload("brick mask" + name, std::span(bricks.mask));
 }
 
 void uploadLookup(VulkanFrame& frame, std::size_t index, const LookupTable& table) {

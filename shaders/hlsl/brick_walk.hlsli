@@ -1,4 +1,4 @@
-// Body of brick_count and brick_list: visits the bricks that each ray crosses. The entry point defines visitBrick.
+// Body of brick_count and brick_list: visits the bricks that each ray crosses and that have slots. The entry point defines visitBrick.
 #include "clv/data/frame.h"
 #include "clv/stages/bricks.h"
 #include "clv/stages/inject.h"
@@ -6,6 +6,7 @@
 [[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
 [[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
 [[vk::binding(CLV_BIND_RAYS)]] Buffer<float4> rays;
+[[vk::binding(CLV_BIND_BRICK_MASK)]] StructuredBuffer<uint> mask;
 [[vk::binding(CLV_BIND_BRICK_CURSORS)]] RWStructuredBuffer<uint> cursors;
 
 // list: of the brick's rays in this half.
@@ -22,6 +23,8 @@ void main(uint3 thread : SV_DispatchThreadID) {
     ClvWalk walk = clvWalkBegin(bricks, ray);
     while (walk.running == 1) {
         ClvCrossing crossing = clvWalkStep(walk, ray.direction);
-        if (crossing.tEnd > crossing.tBegin) visitBrick(first + clvCellIndex(bricks, crossing.cell), i);
+        uint brick = clvCellIndex(bricks, crossing.cell);
+        bool hasSlots = (mask[brick / 32u] >> (brick % 32u) & 1u) != 0u;
+        if (hasSlots && crossing.tEnd > crossing.tBegin) visitBrick(first + brick, i);
     }
 }

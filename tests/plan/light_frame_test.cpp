@@ -119,7 +119,7 @@ TEST(LightFrame, leavesOutWhatNobodyReads) {
     EXPECT_TRUE(passesOf(frame, "evaluate").empty());
     for (const char* buffer : {"hits", "receivers", "irradiance 0", "lookup ends 0"}) EXPECT_FALSE(has(frame, buffer)) << buffer;
     const Frame atomics = lightFrame(smallSettings(InjectWay::floatAtomics));
-    for (const char* buffer : {"brick cursors 0", "brick begins 0", "brick rays 0", "brick slots 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
+    for (const char* buffer : {"brick cursors 0", "brick begins 0", "brick rays 0", "brick slots 0", "brick mask 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
 }
 
 TEST(LightFrame, bindsAGuideOnlyWhereThereIsOne) {

@@ -274,6 +274,47 @@ TEST_F(VulkanInject, doesNotOverflowInFixedPoint) {
     EXPECT_EQ(sums[first + 3], 0.0f);
 }
 
+// Where no receiver reads, no cell has slots, and nothing is listed.
+TEST_F(VulkanInject, listsNoRaysInBricksWithoutSlots) {
+    const ClvVolume volume = openLevel().volume;
+    const ClvReceiver corner{volume.origin, 0.0f, vec3(0.0f, 0.0f, 1.0f), 0.0f};
+    BuildOptions options;
+    options.findRegions = false;
+    const Level few = buildLevel(volume, {}, neededCells(volume, std::span(&corner, 1)), serialFor(), options);
+    const BrickSlots bricks = brickSlots(few);
+    ASSERT_LT(few.slots.size(), few.cellCount() / 4);
+    const std::vector<ClvRay> rays = testRays(volume, kRays);
+    std::size_t expected = 0;
+    for (const ClvRay& ray : rays) {
+        const ClvVolume grid = clvBrickVolume(volume);
+        for (ClvWalk walk = clvWalkBegin(grid, ray); walk.running == 1;) {
+            const ClvCrossing crossing = clvWalkStep(walk, ray.direction);
+            const uint brick = clvCellIndex(grid, crossing.cell);
+            expected += crossing.tEnd > crossing.tBegin && (bricks.mask[brick / 32u] >> brick % 32u & 1u);
+        }
+    }
+    ASSERT_GT(expected, 0u);
+    for (const ShaderLanguage language : kLanguages) {
+        LightFrameSettings settings = settingsFor(InjectWay::bricksPlain, {kClvStorageCube, 1});
+        settings.levels = {describeLevel(few, bricks)};
+        Frame description = lightFrame(settings);
+        description.buffers[description.bufferIndex("brick cursors 0")].readBack = true;
+        VulkanFrame frame(device, description, language);
+        ClvFrame constants{};
+        constants.rayCount = kRays, constants.halves = 2;
+        frame.upload("frame", constants);
+        frame.upload("rays", std::span(rays));
+        frame.upload("level 0", levelConstants(few, bricks, settings, 1.0f, kLargestFlux));
+        uploadLevel(frame, settings, 0, few, bricks);
+        frame.run("light");
+        const ivec3 counts = clvBrickCounts(volume);
+        std::vector<uint> cursors(2u * std::size_t(counts.x) * std::size_t(counts.y) * std::size_t(counts.z) + 1u);
+        frame.download("brick cursors 0", std::span(cursors));
+        EXPECT_EQ(cursors.back(), expected);
+    }
+    EXPECT_EQ(device.messages(), std::vector<std::string>());
+}
+
 TEST(BrickSlots, holdEachSlotOnceInGroupsOfOneBrick) {
     const Scene rooms = makeTwoRooms();
     const EmbreeScene embree(rooms);
@@ -293,6 +334,8 @@ TEST(BrickSlots, holdEachSlotOnceInGroupsOfOneBrick) {
             depth = std::max(depth, splitDepth(level, level.table[cell]));
         }
         EXPECT_NE(bricks.slots[group * kClvBrickLanes], kClvNoSlot);
+        const uint brick = *inBricks.begin();
+        EXPECT_TRUE(bricks.mask[brick / 32u] >> brick % 32u & 1u) << brick;
         EXPECT_EQ(inBricks.size(), 1u);
         EXPECT_LT(group, bricks.groupEnds[std::size_t(depth)]);
         EXPECT_GE(group, depth == 0 ? 0u : bricks.groupEnds[std::size_t(depth) - 1]);

@@ -15,6 +15,8 @@ struct BrickSlots {
     // Where the groups end whose cells have at most 0, 1, ... kClvMostSplits splits on the way to a slot: groups are sorted by that.
     std::array<uint, kClvMostSplits + 1> groupEnds{};
 
+    std::vector<uint> mask;   // a bit a brick: whether it has any
+
     uint groupCount() const { return groupEnds.back(); }
 };
 
@@ -50,6 +52,8 @@ inline BrickSlots brickSlots(const Level& level) {
     }
     std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.depth < b.depth; });
     BrickSlots result;
+    result.mask.resize(clvBrickMaskWords(level.volume));
+    for (const Place& place : places) result.mask[place.brick / 32u] |= 1u << place.brick % 32u;
     result.slots.assign(groups.size() * kClvBrickLanes, kClvNoSlot);
     for (std::size_t g = 0; g < groups.size(); ++g) {
         for (std::size_t k = 0; k < groups[g].count; ++k) result.slots[g * kClvBrickLanes + k] = places[groups[g].first + k].slot;

@@ -54,6 +54,9 @@
 #define CLV_BIND_GUIDE_CELLS 28    // uint[]: the row of each of its cells
 #define CLV_BIND_GUIDE_WEIGHTS 29  // float[]: see stages/ray_guide.h
 
+// Which bricks have lists.
+#define CLV_BIND_BRICK_MASK 30     // uint[]: a bit a brick, the lowest first: whether anything in it has a slot
+
 // Reflective shadow maps that are drawn.
 #define CLV_BIND_MAP_FACES 32      // ClvMapFace[faceCount]
 #define CLV_BIND_FACE_TRIANGLES 33 // array, R32UI, a layer a face: 1 + index of the nearest triangle in the order of the leaves, or 0

@@ -234,14 +234,15 @@ private:
         const ivec3 bricks = clvBrickCounts(level.volume);
         const std::uint64_t lists = s_.halves * std::uint64_t(bricks.x) * bricks.y * bricks.z, groups = level.groupEnds.back();
         const auto slots = add("slots" + name, CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
+        const auto mask = add("brick mask" + name, CLV_BIND_BRICK_MASK, clvBrickMaskWords(level.volume) * sizeof(uint), FrameSource::host);
         const auto cursors = add("brick cursors" + name, CLV_BIND_BRICK_CURSORS, (lists + 1) * sizeof(uint), FrameSource::passes);
         const auto begins = add("brick begins" + name, CLV_BIND_BRICK_BEGINS, lists * sizeof(uint), FrameSource::passes);
         const auto list = add("brick rays" + name, CLV_BIND_BRICK_RAYS, frameListCapacity(s_, level.volume) * sizeof(uint), FrameSource::passes);
         const auto brickSlots = add("brick slots" + name, CLV_BIND_BRICK_SLOTS, groups * kClvBrickLanes * sizeof(uint), FrameSource::host);
         pass("clear" + name, "", uvec3(1), {write(cursors)});
-        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), readWrite(cursors)});
+        pass("count" + name, "brick_count", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), read(mask), readWrite(cursors)});
         pass("begin" + name, "brick_begin", groupsFor(lists), {uniform(frame), uniform(constants), readWrite(cursors), write(begins)});
-        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), readWrite(cursors), write(list)});
+        pass("list" + name, "brick_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), read(mask), readWrite(cursors), write(list)});
         // A pass for each number of splits, so that slots that are whole cells carry no planes.
         for (uint depth = 0, first = 0; depth <= uint(kClvMostSplits); first = level.groupEnds[depth++]) {
             if (level.groupEnds[depth] == first) continue;

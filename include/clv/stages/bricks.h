@@ -23,5 +23,11 @@ CLV_FN uint clvBrickOfCell(ClvVolume volume, ivec3 cell) {
     return clvCellIndex(clvBrickVolume(volume), ivec3(cell.x / 2, cell.y / 2, cell.z / 2));
 }
 
+// Words of a mask with a bit a brick.
+CLV_FN uint clvBrickMaskWords(ClvVolume volume) {
+    ivec3 bricks = clvBrickCounts(volume);
+    return (uint(bricks.x * bricks.y * bricks.z) + 31u) / 32u;
+}
+
 CLV_NAMESPACE_END
 #endif
