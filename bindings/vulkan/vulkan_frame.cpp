@@ -153,12 +153,12 @@ struct VulkanFrame::Impl {
         }
     }
 
-    // Into the layout that allows everything, in which images stay.
-    void makeUsable(const FrameImage& image, vk::Image handle) {
-        vk::ImageMemoryBarrier barrier({}, vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
-        barrier.setSrcQueueFamilyIndex(VK_QUEUE_FAMILY_IGNORED).setDstQueueFamilyIndex(VK_QUEUE_FAMILY_IGNORED).setImage(handle);
-        barrier.setSubresourceRange({imageAspect(image), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS});
-        transfer.pipelineBarrier(vk::PipelineStageFlagBits::eTopOfPipe, vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
+    // From one layout to another; images stay in the general one, which allows everything, but for copies.
+    void changeLayout(std::size_t i, vk::ImageLayout from, vk::ImageLayout to) {
+        const vk::AccessFlags all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
+        vk::ImageMemoryBarrier barrier(all, all, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *buffers[i].image);
+        barrier.setSubresourceRange({imageAspect(frame.buffers[i].image), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS});
+        transfer.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
     }
 
     // The start of a buffer or image to where the host reads it.
@@ -168,13 +168,15 @@ struct VulkanFrame::Impl {
         const bool isVolume = image.shape == FrameShape::volume;
         const vk::ImageSubresourceLayers layers(imageAspect(image), 0, 0, isVolume ? 1 : image.extent.z);
         const vk::Extent3D extent(image.extent.x, image.extent.y, isVolume ? image.extent.z : 1);
-        transfer.copyImageToBuffer(*buffers[i].image, vk::ImageLayout::eGeneral, *downloadCopy.buffer, vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
+        changeLayout(i, vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferSrcOptimal);
+        transfer.copyImageToBuffer(*buffers[i].image, vk::ImageLayout::eTransferSrcOptimal, *downloadCopy.buffer, vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
+        changeLayout(i, vk::ImageLayout::eTransferSrcOptimal, vk::ImageLayout::eGeneral);
     }
 
     void clearBuffers() {
         recordTransfer([&] {
             for (std::size_t i = 0; i < buffers.size(); ++i) {
-                if (frame.buffers[i].isImage()) makeUsable(frame.buffers[i].image, *buffers[i].image);
+                if (frame.buffers[i].isImage()) changeLayout(i, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
             }
             for (std::size_t i = 0; i < buffers.size(); ++i) {
                 if (frame.buffers[i].source == FrameSource::zero) recordClear(transfer, frame.buffers[i], buffers[i]);

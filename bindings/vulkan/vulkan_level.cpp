@@ -34,6 +34,7 @@ ClvLevelFrame levelConstants(const Level& level, const BrickSlots& bricks, const
 
 void uploadLevel(VulkanFrame& frame, const LightFrameSettings& settings, std::size_t index, const Level& level, const BrickSlots& bricks) {
     const std::string name = nameOf(index);
+    if (settings.inject == InjectWay::slices) return frame.upload("slots" + name, std::span(level.slots));
     frame.upload("table" + name, std::span(level.table));
     frame.upload("splits" + name, std::span(level.splits));
     if (!gathers(settings.inject)) return;

@@ -55,6 +55,7 @@
 #include "stages/record.h"
 #include "stages/rsm.h"
 #include "stages/rsm_from_faces.h"
+#include "stages/slices.h"
 #include "stages/surface.h"
 #include "stages/texture.h"
 #include "stages/trace.h"

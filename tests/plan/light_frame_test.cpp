@@ -31,7 +31,7 @@ LightFrameSettings smallSettings(InjectWay inject = InjectWay::bricks) {
     return settings;
 }
 
-constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint};
+constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint, InjectWay::slices};
 
 // Names of the passes of a step; empty where the frame has no such step.
 std::vector<std::string> passesOf(const Frame& frame, const std::string& step) {
@@ -68,7 +68,21 @@ TEST(LightFrame, isFreeOfFaultsForEverySetting) {
             }
         }
     }
-    EXPECT_EQ(checked, 4u * 2 * 2 * 2 * 4 * 2 * 2);
+    EXPECT_EQ(checked, 5u * 2 * 2 * 2 * 4 * 2 * 2);
+}
+
+// The thesis' injection: a draw a slice and half, into a target a side.
+TEST(LightFrame, drawsLinesIntoSlices) {
+    LightFrameSettings settings = smallSettings(InjectWay::slices);
+    settings.halves = 2, settings.storage = kClvStorageCube, settings.rule = kClvInjectThesis;
+    const Frame frame = lightFrame(settings);
+    EXPECT_EQ(passesOf(frame, "light"), (std::vector<std::string>{"rays", "trace", "begin 0", "list 0", "inject 0", "merge 0"}));
+    const FramePass& draw = frame.steps[1].passes[4];
+    EXPECT_EQ(frameLayers(frame, draw), 32u);
+    EXPECT_EQ(draw.raster.topology, FrameTopology::lines);
+    EXPECT_EQ(frame.buffers[frame.bufferIndex("side 5 0")].bytes, 18u * 18 * 32 * sizeof(vec4));
+    EXPECT_EQ(frame.buffers[frame.bufferIndex("slice rays 0")].bytes, 32u * 2048 * sizeof(uint));
+    EXPECT_EQ(checkFrame(frame, {.colourTargets = 5}).size(), 1u);
 }
 
 // Maps that are drawn take the place of traced ones.

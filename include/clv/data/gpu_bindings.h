@@ -62,6 +62,16 @@
 #define CLV_BIND_FACE_TRIANGLES 33 // array, R32UI, a layer a face: 1 + index of the nearest triangle in the order of the leaves, or 0
 #define CLV_BIND_FACE_DEPTHS 34    // depths of the face that is drawn
 
+// Lines drawn into slices; a layer is a slice of a half.
+#define CLV_BIND_SLICE_DRAWS 35    // uvec4[layers]: vertices, instances, first vertex, first instance
+#define CLV_BIND_SLICE_RAYS 36     // uint[layers * rays of a half]: ray indices
+#define CLV_BIND_SIDE_0 37         // 3D image of floats, a texel a cell: light and dynamicity of the side +x
+#define CLV_BIND_SIDE_1 38         // -x
+#define CLV_BIND_SIDE_2 39         // +y
+#define CLV_BIND_SIDE_3 40         // -y
+#define CLV_BIND_SIDE_4 41         // +z
+#define CLV_BIND_SIDE_5 42         // -z
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

@@ -19,6 +19,7 @@
 #include "../stages/gather.h"
 #include "../stages/map_face.h"
 #include "../stages/ray_guide.h"
+#include "../stages/slices.h"
 #include "frame.h"
 #include "frame_check.h"
 
@@ -30,6 +31,7 @@ enum class InjectWay {
     bricksPlain,   // the same without subgroups
     floatAtomics,  // each ray adds to what it crosses
     fixedPoint,    // the same with integers: the same to the last bit from run to run, where the others depend on the order
+    slices,        // as the thesis did it: lines drawn into slices; kClvInjectThesis and kClvStorageCube alone, and all slots of a cell get its light
 };
 
 inline bool gathers(InjectWay way) { return way == InjectWay::bricks || way == InjectWay::bricksPlain; }
@@ -54,6 +56,7 @@ struct LightFrameSettings {
     std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
+    FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float where a device cannot add up 32 bits
     std::vector<LightFrameLevel> levels;
 };
 
@@ -83,6 +86,9 @@ inline std::uint64_t frameListCapacity(const LightFrameSettings& settings, const
 // light step in rounds.
 inline std::uint64_t largestFrameRays(const LightFrameSettings& settings, const FrameLimits& limits = {}) {
     std::uint64_t rays = limits.storageBytes / sizeof(ClvRay);
+    if (settings.inject == InjectWay::slices) {
+        for (const LightFrameLevel& level : settings.levels) rays = std::min(rays, limits.storageBytes / (std::uint64_t(level.volume.resolution.z) * sizeof(uint)));
+    }
     if (gathers(settings.inject)) {
         rays = std::min<std::uint64_t>(rays, limits.texelElements * sizeof(vec4) / sizeof(ClvRay));
         for (const LightFrameLevel& level : settings.levels) rays = std::min(rays, limits.storageBytes / (frameBricksOfRay(level.volume) * sizeof(uint)));
@@ -116,7 +122,9 @@ public:
             const std::uint64_t record = frameStride(s_) * sizeof(float), records = s_.halves * level.slots;
             const auto constants = add("level" + name, CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host);
             const auto history = add("history" + name, CLV_BIND_HISTORY, records * record, FrameSource::zero, true);
-            if (gathers(s_.inject)) {
+            if (s_.inject == InjectWay::slices) {
+                addSlices(level, name, frame, constants, rays, history);
+            } else if (gathers(s_.inject)) {
                 addGather(level, name, frame, constants, rays, history);
             } else {
                 addInject(level, name, frame, constants, rays, history);
@@ -226,6 +234,25 @@ private:
              {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
         pass("merge" + name, fixed ? "merge_fixed" : "merge", groupsFor(bytes / sizeof(vec4)),
              {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
+    }
+
+    // Rays are listed a slice, drawn as lines, and what a cell holds is merged.
+    void addSlices(const LightFrameLevel& level, const std::string& name, std::uint32_t frame, std::uint32_t constants, std::uint32_t rays, std::uint32_t history) {
+        const std::uint32_t layers = s_.halves * std::uint32_t(level.volume.resolution.z);
+        const uvec3 extent(level.volume.resolution.x + int(2 * kClvSliceRim), level.volume.resolution.y + int(2 * kClvSliceRim), layers);
+        const auto slots = add("slots" + name, CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
+        const auto draws = add("slice draws" + name, CLV_BIND_SLICE_DRAWS, layers * sizeof(FrameDrawArguments), FrameSource::passes);
+        const auto list = add("slice rays" + name, CLV_BIND_SLICE_RAYS, layers * (s_.rays / s_.halves) * sizeof(uint), FrameSource::passes);
+        pass("begin" + name, "slice_begin", groupsFor(layers), {uniform(frame), uniform(constants), write(draws)});
+        pass("list" + name, "slice_list", groupsFor(s_.rays), {uniform(frame), uniform(constants), texel(rays), readWrite(draws), write(list)});
+        Uses lines{uniform(frame), uniform(constants), texel(rays), read(list), {draws, FrameBinding::arguments}}, merge{uniform(frame), uniform(constants), read(slots), readWrite(history)};
+        for (std::uint32_t side = 0; side < 6; ++side) {
+            const auto light = addImage("side " + std::to_string(side) + name, CLV_BIND_SIDE_0 + side, {s_.sliceFormat, FrameShape::volume, extent});
+            lines.push_back(target(light, FrameBlend::addKeepLargestAlpha));
+            merge.push_back(image(light));
+        }
+        draw("inject" + name, "inject_slices", {FrameTopology::lines}, lines, {{CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_TURNED, s_.turned ? 1u : 0u}});
+        pass("merge" + name, "merge_slices", groupsFor(s_.halves * level.slots), merge, {{CLV_SPEC_CHANNELS, s_.channels}, {CLV_SPEC_STRIDE, frameStride(s_)}});
     }
 
     // Each slot adds up its rays and merges them at once.
