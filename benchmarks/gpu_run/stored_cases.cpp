@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "bindings/embree/bvh.h"
 #include "bindings/embree/rsm.h"
 #include "bindings/embree/visible_points.h"
@@ -11,6 +13,7 @@
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/cpu/build_level.h"
 #include "clv/cpu/still_lighting.h"
+#include "clv/plan/map_faces.h"
 #include "clv/stages/pick_texel.h"
 
 namespace clv {
@@ -24,6 +27,9 @@ constexpr double kUnit = 0x1p-24;     // rounding of a float
 constexpr double kDeviceUnits = 16.0;
 // Of the numbers of a check: rays next to an edge, pieces next to a plane.
 constexpr double kExceptions = 2e-3;
+// Where maps are drawn, texels at outlines differ, with pictures of kFaceSide^2 texels.
+constexpr std::uint32_t kFaceSide = 192;
+constexpr double kOutlines = 0.03;
 
 template <class T>
 StoredBuffer buffer(const std::string& name, std::span<const T> items) {
@@ -42,9 +48,12 @@ std::vector<float> floatsOf(const std::vector<T>& items) {
     return floats;
 }
 
+std::uint64_t exceptionsOf(std::size_t numbers, double share = kExceptions) { return std::uint64_t(share * double(numbers)); }
+
 // A scene, its maps and rays by Embree, a level, and receivers.
 struct CpuScene {
     Scene scene;
+    StoredScene rows;
     EmbreeScene embree;
     std::vector<ClvLight> lights;
     std::vector<ClvRsmTexel> texels;
@@ -55,7 +64,7 @@ struct CpuScene {
     LookupTable table;
 
     explicit CpuScene(const std::string& name)
-        : scene(makeBuiltinScene(name)), embree(scene),
+        : scene(makeBuiltinScene(name)), rows(storedScene(name)), embree(scene),
           level(buildLevel(volumeOverBounds(scene.bounds.lo, scene.bounds.hi, kCells, kClvStorageCube9, vec3(0.3f, 0.6f, 0.1f)), embree.probe(), {}, serialFor())),
           bricks(brickSlots(level)), receivers(visiblePoints(embree, kReceivers, 1)), table(level, receivers, {}, serialFor()) {
         for (const NamedLight& light : scene.lights) lights.push_back(light.light);
@@ -78,7 +87,6 @@ struct CpuScene {
         settings.levels[0].lookupEntries = table.slots().size();
     }
     void addScene(LightFrameSettings& settings) const {
-        const StoredScene rows = storedScene(scene.name);
         settings.lights = lights.size(), settings.rsmSide = kRsmSide;
         settings.triangles = scene.triangles.size(), settings.bvhNodes = rows.children.size();
     }
@@ -88,11 +96,10 @@ struct CpuScene {
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
         constants.rayCount = uint(settings.rays), constants.halves = kHalves, constants.seed = clvHashCombine(kSeed, 0u), constants.rsmSeed = kSeed;
         constants.rsmSide = kRsmSide, constants.texelRows = uint(settings.lights) * kRsmSide, constants.receiverCount = uint(settings.receivers);
-        constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(settings.triangles);
+        constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(rows.triangles.size() / kClvTriangleRows);
         return constants;
     }
     std::vector<StoredBuffer> sceneBuffers() const {
-        const StoredScene rows = storedScene(scene.name);
         return {buffer("lights", lights), buffer("bvh boxes", rows.boxes), buffer("bvh children", rows.children), buffer("triangles", rows.triangles), buffer("surfaces", rows.surfaces)};
     }
     std::vector<StoredBuffer> levelBuffers(const LightFrameSettings& settings) const {
@@ -102,37 +109,60 @@ struct CpuScene {
                 buffer("lookup slots 0", table.slots()), buffer("lookup weights 0", table.weights())};
     }
 
+    // Items of which flux is three numbers from offset `flux` on. exceptions: a share of all numbers.
+    template <class T>
+    StoredCheck check(const std::string& name, const std::vector<T>& items, std::size_t flux, double exceptions) const {
+        StoredCheck check{.buffer = name, .expected = floatsOf(items)};
+        const float reach = length(scene.bounds.extent());
+        for (std::size_t i = 0; i < check.expected.size(); ++i) {
+            const std::size_t offset = i * sizeof(float) % sizeof(T);
+            // Flux is that of a ray's probability, a difference of running sums.
+            const bool isFlux = offset >= flux && offset < flux + sizeof(vec3);
+            check.bounds.push_back(isFlux ? 1e-3f * std::abs(check.expected[i]) : 1e-4f * reach);
+        }
+        check.exceptions = exceptionsOf(check.expected.size(), exceptions);
+        return check;
+    }
+    StoredCheck mapCheck(double exceptions) const { return check("texels", texels, offsetof(ClvRsmTexel, flux), exceptions); }
+
     // Drawn from the maps, and cut; in the order in which the device's threads take them.
-    std::vector<ClvRay> rays(std::uint64_t count) const {
+    std::vector<ClvRay> rays(std::uint64_t count, std::vector<ClvHit>* hits = nullptr) const {
         std::vector<ClvRay> drawn(count), rays;
         makeRays(sampler, 0, clvHashCombine(kSeed, 0u), embree.surfaceOffset(), drawn);
-        embree.trace(drawn);
         for (uint i = 0; i < count; ++i) rays.push_back(drawn[clvNeighbourIndex(i, uint(count))]);
+        if (hits) {
+            hits->resize(count);
+            embree.trace(rays, *hits);
+        } else {
+            embree.trace(rays);
+        }
         return rays;
     }
 };
 
-std::uint64_t exceptionsOf(std::size_t numbers) { return std::uint64_t(kExceptions * double(numbers)); }
-
-// Maps, and rays where they begin and end.
+// Maps, rays where they begin and end, and what they meet.
 StoredCase traceCase(const CpuScene& cpu) {
     StoredCase stored{.name = "trace", .settings = cpu.settings(kFewRays), .steps = {"rsm", "light"}, .buffers = cpu.sceneBuffers()};
     cpu.addScene(stored.settings);
+    stored.settings.keepHits = true;
     stored.buffers.push_back(buffer("frame", cpu.constants(stored.settings)));
-    const float reach = length(cpu.scene.bounds.extent());
-    const auto expect = [&](const std::string& name, const std::vector<float>& expected, std::size_t floats, std::size_t firstOfFlux) {
-        StoredCheck check{.buffer = name, .expected = expected};
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-            const std::size_t member = i % floats;
-            // Flux is that of a ray's probability, a difference of running sums.
-            const bool flux = member >= firstOfFlux && member < firstOfFlux + 3;
-            check.bounds.push_back(flux ? 1e-3f * std::abs(expected[i]) : 1e-4f * reach);
-        }
-        check.exceptions = exceptionsOf(expected.size());
-        stored.checks.push_back(check);
-    };
-    expect("texels", floatsOf(cpu.texels), sizeof(ClvRsmTexel) / sizeof(float), offsetof(ClvRsmTexel, flux) / sizeof(float));
-    expect("rays", floatsOf(cpu.rays(kFewRays)), sizeof(ClvRay) / sizeof(float), offsetof(ClvRay, flux) / sizeof(float));
+    std::vector<ClvHit> hits;
+    const std::vector<ClvRay> rays = cpu.rays(kFewRays, &hits);
+    stored.checks = {cpu.mapCheck(kExceptions), cpu.check("rays", rays, offsetof(ClvRay, flux), kExceptions), cpu.check("hits", hits, sizeof(ClvHit), kExceptions)};
+    return stored;
+}
+
+// The same maps, drawn.
+StoredCase drawnCase(const CpuScene& cpu) {
+    StoredCase stored{.name = "drawn_maps", .settings = cpu.settings(kFewRays), .steps = {"rsm", "light"}, .buffers = cpu.sceneBuffers()};
+    const std::vector<ClvMapFace> faces = mapFaces(cpu.lights, cpu.scene.bounds.lo, cpu.scene.bounds.hi, kFaceSide);
+    cpu.addScene(stored.settings);
+    stored.settings.mapFaces = std::uint32_t(faces.size()), stored.settings.faceSide = kFaceSide;
+    ClvFrame constants = cpu.constants(stored.settings);
+    constants.faceCount = stored.settings.mapFaces, constants.faceSide = kFaceSide;
+    stored.buffers.push_back(buffer("frame", constants));
+    stored.buffers.push_back(buffer("map faces", faces));
+    stored.checks = {cpu.mapCheck(kOutlines)};
     return stored;
 }
 
@@ -144,7 +174,10 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
     cpu.addLevel(settings);
     const std::vector<ClvRay> rays = cpu.rays(kFewRays);
     stored.buffers = cpu.levelBuffers(settings);
-    stored.buffers.push_back(buffer("frame", cpu.constants(settings)));
+    settings.turned = layout.frame != mat3(1.0f);
+    ClvFrame constants = cpu.constants(settings);
+    keepDirectionsAlong(layout.frame, constants);
+    stored.buffers.push_back(buffer("frame", constants));
     stored.buffers.push_back(buffer("rays", rays));
 
     // Sums in double precision, and how far a device can be from them: its additions, the roundings of each term, and lengths rounded by
@@ -154,7 +187,7 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
     std::vector<double> sum(count), magnitude(count), terms(cpu.level.slots.size());
     const float largestFlux = float(cpu.sampler.totalFlux());
     for (const ClvRay& ray : rays) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, ray.direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, layout.frame * ray.direction);
         for (ClvWalk walk = clvWalkBegin(volume, ray); walk.running == 1;) {
             const ClvCrossing crossing = clvWalkStep(walk, ray.direction);
             const float middle = 0.5f * (crossing.tBegin + crossing.tEnd) * volume.cellSize;
@@ -179,7 +212,7 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
     }
     StoredCheck irradiance{.buffer = "irradiance 0", .exceptions = exceptionsOf(4 * cpu.receivers.size())};
     for (std::size_t i = 0; i < cpu.receivers.size(); ++i) {
-        const ClvCoefficients read = clvReadCoefficients(layout.storage, cpu.receivers[i].normal);
+        const ClvCoefficients read = layout.read(cpu.receivers[i].normal);
         const vec3 expected = cpu.table.irradiance(i, layout, history.expected, read);
         // The error of what is read and of the sum over it; no coefficient is read more than about once.
         double bound = 0.0;
@@ -238,7 +271,9 @@ StoredScene storedScene(const std::string& name) {
 
 std::vector<StoredCase> storedCases() {
     const CpuScene cpu("two_rooms");
-    return {traceCase(cpu), injectCase(cpu, "inject_cube9_colour", {kClvStorageCube9, 3}, kClvInjectTrackLength),
+    const mat3 turned(glm::rotate(glm::mat4(1.0f), 0.5f, normalize(vec3(1.0f, 2.0f, 3.0f))));
+    return {traceCase(cpu), drawnCase(cpu), injectCase(cpu, "inject_turned", {kClvStorageCube9, 3, turned}, kClvInjectTrackLength),
+            injectCase(cpu, "inject_cube9_colour", {kClvStorageCube9, 3}, kClvInjectTrackLength),
             injectCase(cpu, "inject_cube_grey", {kClvStorageCube, 1}, kClvInjectTrackLength), injectCase(cpu, "inject_sh2_colour", {kClvStorageSh2, 3}, kClvInjectTrackLength),
             injectCase(cpu, "inject_thesis", {kClvStorageCube, 3}, kClvInjectThesis), wholeCase(cpu)};
 }

@@ -1,4 +1,4 @@
-// The ways to inject that a device can take.
+// The ways to inject that a device can take, but for the slices of the thesis, whose lines are not the same everywhere.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,6 +12,7 @@ inline std::string wayName(InjectWay way) {
         case InjectWay::bricks: return "bricks";
         case InjectWay::bricksPlain: return "bricks_plain";
         case InjectWay::floatAtomics: return "float_atomics";
+        case InjectWay::slices: return "slices";
         default: return "fixed_point";
     }
 }
