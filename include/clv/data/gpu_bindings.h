@@ -72,6 +72,12 @@
 #define CLV_BIND_SIDE_4 41         // +z
 #define CLV_BIND_SIDE_5 42         // -z
 
+// What frames of moving lights have besides.
+#define CLV_BIND_MERGE 43          // ClvMergeSettings
+#define CLV_BIND_DYNAMICITY 44     // uint[halves * slotCount * 6]: this frame's largest dynamicity of each side, the bits of a float
+#define CLV_BIND_KEPT_DYNAMICITY 45  // float[halves * slotCount * 6]: that of the history
+#define CLV_BIND_SLOT_FRAMES 46    // float[halves * slotCount]: frames, weighed alike, that a slot's history stands for
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

@@ -18,6 +18,7 @@
 #include "../stages/evaluate.h"
 #include "../stages/gather.h"
 #include "../stages/map_face.h"
+#include "../stages/merge.h"
 #include "../stages/ray_guide.h"
 #include "../stages/slices.h"
 #include "frame.h"
@@ -54,6 +55,7 @@ struct LightFrameSettings {
     bool turned = false;               // cells keep directions along ClvFrame's axes, not along those of the grid
     std::uint32_t rule = kClvInjectTrackLength;
     std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
+    bool movingLights = false;         // history gives way by dynamicity, not by ClvLevelFrame::weight; InjectWay::floatAtomics and fixedPoint alone
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
     FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float where a device cannot add up 32 bits
@@ -228,12 +230,29 @@ private:
         const std::uint64_t bytes = frame_.buffers[history].bytes;
         const auto [table, splits] = addTables(level, name);
         const auto deposits = add("deposits" + name, CLV_BIND_DEPOSITS, bytes, FrameSource::zero, true);
+        std::string moving;
+        Uses merge{uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)};
+        if (s_.movingLights) {
+            moving = "_moving";
+            merge.push_back(read(addDynamicity(level, name, {uniform(frame), uniform(constants)}, {read(rays), read(table), read(splits)})));
+        }
         Constants spec = recordConstants();
         spec.push_back({CLV_SPEC_RULE, s_.rule});
         pass("inject" + name, fixed ? "inject_fixed" : "inject_float", groupsFor(s_.rays),
              {uniform(frame), uniform(constants), read(rays), read(table), read(splits), readWrite(deposits)}, spec);
-        pass("merge" + name, fixed ? "merge_fixed" : "merge", groupsFor(bytes / sizeof(vec4)),
-             {uniform(frame), uniform(constants), readWrite(deposits), readWrite(history)}, {{CLV_SPEC_STRIDE, frameStride(s_)}});
+        pass("merge" + name, (fixed ? "merge_fixed" : "merge") + moving, groupsFor(bytes / sizeof(vec4)), std::move(merge), {{CLV_SPEC_STRIDE, frameStride(s_)}});
+    }
+
+    // Returns the frames that each slot's history stands for.
+    std::uint32_t addDynamicity(const LightFrameLevel& level, const std::string& name, const Uses& constants, const Uses& rays) {
+        const std::uint64_t records = s_.halves * level.slots;
+        const auto settings = add("merge settings" + name, CLV_BIND_MERGE, sizeof(ClvMergeSettings), FrameSource::host);
+        const auto now = add("dynamicity" + name, CLV_BIND_DYNAMICITY, 6 * records * sizeof(uint), FrameSource::zero);
+        const auto kept = add("kept dynamicity" + name, CLV_BIND_KEPT_DYNAMICITY, 6 * records * sizeof(float), FrameSource::zero, true);
+        const auto frames = add("slot frames" + name, CLV_BIND_SLOT_FRAMES, records * sizeof(float), FrameSource::zero, true);
+        pass("dynamicity" + name, "dynamicity", groupsFor(s_.rays), with(with(constants, rays), {readWrite(now)}), {{CLV_SPEC_RULE, s_.rule}, {CLV_SPEC_TURNED, s_.turned ? 1u : 0u}});
+        pass("frames" + name, "slot_frames", groupsFor(records), with(constants, {uniform(settings), readWrite(now), readWrite(kept), readWrite(frames)}));
+        return frames;
     }
 
     // Rays are listed a slice, drawn as lines, and what a cell holds is merged.
