@@ -1,6 +1,7 @@
 #include "bindings/cli/pipeline.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -249,8 +250,9 @@ private:
         const std::uint64_t pilots = pilot(options_.seconds > 0.0 ? kFirstRound : budget);
         if (options_.seconds <= 0.0) budget -= pilots;
         std::uint64_t done = 0;
-        // While levels are judged all of them are filled, so this ends with the first quarter of the rays.
-        const std::uint64_t judged = automatic_ ? std::max<std::uint64_t>(budget / 4, 1) : 0;
+        // While levels are judged all of them are filled, so this ends with about the first quarter of the rays. A power of two: the
+        // halves of other stretches of the sequence fill each other's gaps, and what is meant to judge the bias shows less of it.
+        const std::uint64_t judged = automatic_ ? std::bit_floor(std::max<std::uint64_t>(budget / 3, 1)) : 0;
         std::size_t round = options_.frames > 1 ? std::size_t((budget + options_.frames - 1) / options_.frames) : kFirstRound;
         if (automatic_ && done < judged) round = std::size_t(std::min<std::uint64_t>(round, judged));
         std::uint64_t sinceRsm = 0;
@@ -273,7 +275,7 @@ private:
             const double now = progress.seconds();
             // With a budget of time, as many rays are still to come as the pace so far promises.
             const double target = options_.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
-            if (resolutions_.size() > 1) judge(target, double(done) >= 0.25 * target);
+            if (resolutions_.size() > 1) judge(target, options_.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
             if (options_.seconds > 0.0 && now + (now - before) > timeForThis) break;
             progress.update(options_.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
             if (options_.frames <= 1) round = settled_ || !automatic_ ? kLargestRound : std::min(2 * round, kLargestRound);

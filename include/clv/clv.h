@@ -61,6 +61,7 @@
 #include "stages/trace.h"
 #include "stages/trace_bvh.h"
 #include "plan/cascade_placement.h"
+#include "plan/cell_box.h"
 #include "plan/direction_frame.h"
 #include "plan/frame.h"
 #include "plan/frame_check.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "cli/run_command.h"
-#include "cli/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace {
 

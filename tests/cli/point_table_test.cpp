@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "cli/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/run_command.h"
-#include "cli/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include "bindings/cli/staged_output.h"
 
 #include "bindings/scene/scene.h"
-#include "cli/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace {
 

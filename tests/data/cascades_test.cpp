@@ -39,7 +39,7 @@ bool holds(const PlacedCascade& placed, const glm::dvec3& position, double margi
 
 std::map<std::tuple<int, int, int>, int> visitExposed(const ivec3& resolution, const ivec3& moved) {
     std::map<std::tuple<int, int, int>, int> visits;
-    for (const CellRange& box : exposedCells(resolution, moved)) {
+    for (const CellBox& box : exposedCells(resolution, moved)) {
         for (int z = box.lo.z; z < box.hi.z; ++z) {
             for (int y = box.lo.y; y < box.hi.y; ++y) {
                 for (int x = box.lo.x; x < box.hi.x; ++x) ++visits[{x, y, z}];

@@ -7,7 +7,7 @@
 
 #include "bindings/scene/glb_container.h"
 #include "bindings/scene/scene.h"
-#include "cli/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace clv {
 

@@ -8,17 +8,6 @@
 
 namespace clv {
 
-inline std::size_t cellsInBox(const CellBox& box) {
-    const ivec3 size = max(box.hi - box.lo, ivec3(0));
-    return std::size_t(size.x) * size.y * size.z;
-}
-
-// Cell i of a box, x fastest.
-inline ivec3 cellOfBox(const CellBox& box, std::size_t i) {
-    const ivec3 size = box.hi - box.lo;
-    return box.lo + ivec3(int(i % size.x), int(i / size.x % size.y), int(i / (std::size_t(size.x) * size.y)));
-}
-
 // The open regions of the cells of a box, found in parallel. Keeps its memory from box to box.
 class BoxSurvey {
 public:

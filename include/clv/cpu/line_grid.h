@@ -7,15 +7,11 @@
 #include <vector>
 
 #include "../data/light_volume.h"
+#include "../plan/cell_box.h"
 #include "parallel.h"
 #include "scene_probe.h"
 
 namespace clv {
-
-// A box of cells, [lo, hi) in logical cell coordinates.
-struct CellBox {
-    ivec3 lo, hi;
-};
 
 // perCell^2 lines a cell along each axis. The lines of the three axes meet in a lattice of perCell^3 points a cell.
 class LineGrid {

@@ -54,8 +54,7 @@ public:
         const ivec3 moved = cascadeScroll(placed_, placed);
         placed_ = placed;
         level_.volume = volumeFromCascade(placed, settings_.anchor, settings_.storage);
-        const auto ranges = exposedCells(placed.resolution, moved);
-        for (int i = 0; i < 3; ++i) exposed_[i] = {ranges[i].lo, ranges[i].hi};
+        exposed_ = exposedCells(placed.resolution, moved);
     }
 
     // Calls visit(cell) for every cell that the last move exposed, always in the same order.

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "../data/cascades.h"
+#include "cell_box.h"
 
 namespace clv {
 
@@ -41,12 +42,6 @@ struct PlacedCascade {
     LatticeCell lowest{0};  // its lowest cell covers [lowest, lowest + 1) * cellSize in the world
     ivec3 resolution{0};
     double cellSize = 0.0;  // m
-};
-
-// A box of cells, hi excluded; coordinates relative to the volume's lowest cell.
-struct CellRange {
-    ivec3 lo{0};
-    ivec3 hi{0};
 };
 
 // Beyond this many cells from the origin a double no longer tells cells apart.
@@ -193,9 +188,9 @@ inline ivec3 cascadeScroll(const PlacedCascade& before, const PlacedCascade& aft
 }
 
 // The cells that a scroll exposed, each in exactly one box: a slab for each axis, less what earlier slabs hold. Boxes may be empty.
-inline std::array<CellRange, 3> exposedCells(const ivec3& resolution, const ivec3& moved) {
-    std::array<CellRange, 3> boxes;
-    CellRange rest{ivec3(0), resolution};  // what no slab has taken yet
+inline std::array<CellBox, 3> exposedCells(const ivec3& resolution, const ivec3& moved) {
+    std::array<CellBox, 3> boxes;
+    CellBox rest{ivec3(0), resolution};  // what no slab has taken yet
     for (int axis = 0; axis < 3; ++axis) {
         boxes[axis] = rest;
         if (moved[axis] >= 0) {
