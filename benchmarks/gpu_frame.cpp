@@ -1,7 +1,7 @@
 // A whole frame on a Vulkan device, from trace to evaluate, beside two others in turn with it, on two threads each: a plain native
 // reference (one ray at a time through Embree, a scalar walk through the cells), and the library's own pipeline on the CPU.
-// `work` is the time of all threads of the process, rays included, the least of all rounds: on a device that runs on the CPU, what the
-// frame costs there, whoever else keeps the machine busy. CLV_DEVICE chooses the device by name.
+// `work` is the time of all threads of the process, the least of all rounds: on a device that runs on the CPU, what the frame costs
+// there, whoever else keeps the machine busy. CLV_DEVICE chooses the device by name.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -31,8 +31,6 @@ constexpr std::uint32_t kRsmSide = 128, kSeed = 1;
 
 double processSeconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-double milliseconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double, std::milli>(time).count(); }
-
 struct Case {
     Case(const std::string& name, const DepositLayout& depositLayout)
         : scene(makeBuiltinScene(name)), embree(scene), native(scene), layout(depositLayout),
@@ -58,7 +56,17 @@ struct Case {
     TexelSampler sampler;
 };
 
-// Trace, inject, merge and evaluate by timestamps; rays are drawn afresh each time, as in the others.
+// The frame with its rays drawn in a step of their own.
+Frame withRaysApart(Frame frame) {
+    const auto light = std::find_if(frame.steps.begin(), frame.steps.end(), [](const FrameStep& step) { return step.name == "light"; });
+    FrameStep rays{"rays", {light->passes.front()}};
+    light->passes.erase(light->passes.begin());
+    frame.steps.insert(light, std::move(rays));
+    addBarriers(frame);
+    return frame;
+}
+
+// In all three, draw() makes the rays of the next round, and run() traces, injects, merges and evaluates.
 class OnDevice {
 public:
     explicit OnDevice(const Case& c) : device_({.device = std::getenv("CLV_DEVICE") ? std::getenv("CLV_DEVICE") : ""}), bvh_(buildBvh(c.scene)) {
@@ -71,7 +79,7 @@ public:
         settings.inject = defaultInject(device_.info().features);
         settings.levels = {describeLevel(c.level, c.bricks)};
         settings.levels[0].lookupEntries = c.table.slots().size();
-        frame_ = std::make_unique<VulkanFrame>(device_, lightFrame(settings));
+        frame_ = std::make_unique<VulkanFrame>(device_, withRaysApart(lightFrame(settings)));
         constants_.boundsLo = c.scene.bounds.lo, constants_.boundsHi = c.scene.bounds.hi;
         constants_.rayCount = kRays, constants_.halves = settings.halves, constants_.seed = clvHashCombine(kSeed, 0u), constants_.rsmSeed = kSeed;
         constants_.rsmSide = kRsmSide, constants_.texelRows = uint(lights.size()) * kRsmSide, constants_.receiverCount = uint(c.receivers.size());
@@ -89,17 +97,17 @@ public:
         frame_->run("rsm");
     }
 
-    // ms; those of each pass are added to `passes`.
-    double run(std::map<std::string, double>& passes) {
+    void draw() {
         constants_.firstIndex += kRays;
         frame_->upload("frame", constants_);
-        frame_->run({"light", "evaluate"});
+        frame_->run("rays");
+    }
+    void run() { frame_->run({"light", "evaluate"}); }
+    // Of the last run by timestamps, s; those of each pass are added to `passes`.
+    double seconds(std::map<std::string, double>& passes) const {
         double sum = 0.0;
         for (const char* step : {"light", "evaluate"}) {
-            for (const auto& [pass, time] : frame_->times(step)) {
-                passes[pass] += 1e-3 * time;
-                if (pass != "rays") sum += time;
-            }
+            for (const auto& [pass, time] : frame_->times(step)) sum += 1e-3 * time, passes[pass] += 1e-3 * time;
         }
         return sum;
     }
@@ -124,14 +132,14 @@ class Native {
 public:
     explicit Native(const Case& c) : c_(c), rays_(kRays), volumes_(kThreads, std::vector<float>(c.level.slots.size() * std::size_t(c.layout.stride()))), irradiance_(c.receivers.size()) {}
 
-    double run() {
+    void draw() {
         makeRays(c_.sampler, first_, clvHashCombine(kSeed, 0u), c_.embree.surfaceOffset(), rays_);
         first_ += kRays;
-        const auto begin = std::chrono::steady_clock::now();
+    }
+    void run() {
         inThreads([&](std::size_t t) { traceAndInject(t); });
         inThreads([&](std::size_t t) { merge(t); });
         inThreads([&](std::size_t t) { evaluate(t); });
-        return milliseconds(std::chrono::steady_clock::now() - begin);
     }
     double irradiance() const {
         double sum = 0.0;
@@ -193,9 +201,8 @@ public:
           irradiance_(c.receivers.size()) {
         lighting_.addLevel(c.level);
     }
-    double run() {
-        lighting_.rays(c_.sampler, kRays);
-        const auto begin = std::chrono::steady_clock::now();
+    void draw() { lighting_.rays(c_.sampler, kRays); }
+    void run() {
         lighting_.trace();
         lighting_.inject();
         lighting_.merge();
@@ -206,7 +213,6 @@ public:
                 irradiance_[i] = c_.table.irradiance(i, c_.layout, volume.history(0), c_.layout.read(c_.receivers[i].normal));
             }
         });
-        return milliseconds(std::chrono::steady_clock::now() - begin);
     }
 
 private:
@@ -228,21 +234,25 @@ void wholeFrame(benchmark::State& state, const std::string& scene, const Deposit
     Native native(c);
     OnCpu cpu(c);
     std::map<std::string, double> passes;
-    device.run(passes);  // shaders are compiled at their first run
-    native.run(), cpu.run();
-    passes.clear();
+    const auto round = [&](auto& frame) { frame.draw(), frame.run(); };
+    round(device), round(native), round(cpu);  // shaders are compiled at their first run
     // What is measured is the same light: the estimates of one frame each.
     if (std::abs(device.irradiance() - native.irradiance()) > 0.05 * native.irradiance()) state.SkipWithError("the device's light is not that of the reference");
     struct {
         std::string name;
         std::vector<double> times{}, work{};
     } runs[3] = {{"device"}, {"native"}, {"cpu"}};
+    const auto measure = [](auto& frame, auto& run) {
+        frame.draw();
+        const auto begin = std::chrono::steady_clock::now();
+        const double before = processSeconds();
+        frame.run();
+        run.work.push_back(processSeconds() - before);
+        run.times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    };
     for (auto _ : state) {
-        for (int k = 0; k < 3; ++k) {
-            const double before = processSeconds();
-            runs[k].times.push_back(1e-3 * (k == 0 ? device.run(passes) : k == 1 ? native.run() : cpu.run()));
-            runs[k].work.push_back(processSeconds() - before);
-        }
+        measure(device, runs[0]), measure(native, runs[1]), measure(cpu, runs[2]);
+        runs[0].times.back() = device.seconds(passes);
         state.SetIterationTime(runs[0].times.back());
     }
     for (const auto& run : runs) {
