@@ -104,13 +104,10 @@ void visit(Archive& archive, Value& s) {
 
 template <class Archive, class Value>
     requires std::is_same_v<std::remove_const_t<Value>, LightFrameSettings>
-void visit(Archive& archive, Value& settings) {
-    // By all members, so that a new one is not forgotten.
-    auto& [lights, rsmSide, triangles, bvhNodes, textureTexels, mapFaces, faceSide, rays, receivers, halves, storage, channels, turned, rule, guideCells, guideRows, keepHits,
-           inject, sliceFormat, levels] = settings;
-    archive(lights), archive(rsmSide), archive(triangles), archive(bvhNodes), archive(textureTexels), archive(mapFaces), archive(faceSide), archive(rays), archive(receivers);
-    archive(halves), archive(storage), archive(channels), archive(turned), archive(rule), archive(guideCells), archive(guideRows), archive(keepHits), archive(inject), archive(sliceFormat);
-    archive(levels);
+void visit(Archive& archive, Value& s) {
+    archive(s.lights), archive(s.rsmSide), archive(s.triangles), archive(s.bvhNodes), archive(s.textureTexels), archive(s.mapFaces), archive(s.faceSide);
+    archive(s.rays), archive(s.receivers), archive(s.halves), archive(s.storage), archive(s.channels), archive(s.turned), archive(s.rule);
+    archive(s.guideCells), archive(s.guideRows), archive(s.movingLights), archive(s.keepHits), archive(s.inject), archive(s.sliceFormat), archive(s.levels);
 }
 
 template <class Archive, class Value>
