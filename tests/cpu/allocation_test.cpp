@@ -1,6 +1,9 @@
 // A frame allocates nothing once everything has been as large as it gets.
 #include <gtest/gtest.h>
 
+#include "clv/cpu/build_level.h"
+#include "clv/cpu/lookup_table.h"
+#include "clv/cpu/still_lighting.h"
 #include "cpu/moving_scene.h"
 #include "support/allocation_count.h"
 
@@ -36,7 +39,40 @@ TEST(MovingLightingMemory, takesNothingMoreOnceItHasBeenEverywhere) {
     }
 }
 
-TEST(MovingLightingMemory, countsAllocationsThatHappen) {
+TEST(StillLightingMemory, takesNothingAfterTheFirstFrame) {
+    LitHall hall;
+    const std::vector<ClvReceiver> receivers = floorAround(vec3(0.0f), 5.0f);
+    StillLightingSettings settings;
+    settings.parts = {2, 2};
+    StillLighting lighting(settings, hall.tracer(), serialFor());
+    std::vector<LookupTable> lookups;
+    for (int resolution : {8, 16}) {
+        const ClvVolume volume = volumeOverBounds(vec3(-10.0f, -3.0f, -7.0f), vec3(10.0f, 3.0f, 7.0f), resolution, kClvStorageCube9);
+        Level level = buildLevel(volume, hall.scene.probe(), neededCells(volume, receivers), serialFor());
+        lookups.emplace_back(level, receivers, LookupOptions{}, serialFor());
+        lighting.addLevel(std::move(level));
+    }
+    const auto frame = [&] {
+        const std::size_t before = allocationCount();
+        hall.sampler.build(hall.texels, 16, serialFor());
+        lighting.rays(hall.sampler, 2000);
+        lighting.trace();
+        lighting.inject();
+        lighting.merge();
+        float sum = 0.0f;
+        for (std::size_t l = 0; l < lookups.size(); ++l) {
+            for (std::size_t i = 0; i < receivers.size(); ++i) {
+                sum += lookups[l].irradiance(i, settings.layout, lighting.volumes()[l].history(0), settings.layout.read(receivers[i].normal)).x;
+            }
+        }
+        EXPECT_GT(sum, 0.0f);
+        return allocationCount() - before;
+    };
+    EXPECT_GT(frame(), 0u);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(frame(), 0u) << k;
+}
+
+TEST(AllocationCount, countsAllocationsThatHappen) {
     const std::size_t before = allocationCount();
     AlignedFloats floats(100);
     std::vector<int> ints(100);
