@@ -115,6 +115,7 @@ private:
     void upload(VulkanFrame& frame) {
         constants_.boundsLo = scene_.boundsLo, constants_.boundsHi = scene_.boundsHi;
         constants_.rayCount = uint(settings_.rays), constants_.halves = settings_.halves, constants_.seed = 1;
+        constants_.halfStep = constants_.rayCount / constants_.halves;
         constants_.rsmSide = kRsmSide, constants_.texelRows = uint(scene_.lights.size()) * kRsmSide, constants_.receiverCount = uint(receivers_.size());
         constants_.originOffset = scene_.originOffset, constants_.triangleCount = uint(scene_.triangles.size() / kClvTriangleRows);
         frame.upload("frame", constants_);

@@ -44,9 +44,9 @@ struct VulkanFrame::Impl {
     std::vector<Step> steps;
     std::vector<vk::CommandBuffer> submission;
 
-    Impl(VulkanDevice::Impl& d, const Frame& f, ShaderLanguage language) : device(d), frame(f) {
+    Impl(VulkanDevice::Impl& d, const Frame& f, ShaderLanguage language, const Impl* lender) : device(d), frame(f) {
         throwFirst(checkFrame(frame, device.info.limits));
-        takeMemory();
+        takeMemory(lender);
         descriptors = makeDescriptorPool(device, frame);
         commandPool = vk::raii::CommandPool(device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
         transfer = makeCommands();
@@ -56,7 +56,7 @@ struct VulkanFrame::Impl {
         clearBuffers();
     }
 
-    void takeMemory() {
+    void takeMemory(const Impl* lender) {
         const auto copied = vk::BufferUsageFlagBits::eTransferDst | vk::BufferUsageFlagBits::eTransferSrc;
         const auto copiedImage = vk::ImageUsageFlagBits::eTransferDst | vk::ImageUsageFlagBits::eTransferSrc;
         std::vector<VulkanBufferWish> wishes;
@@ -76,7 +76,14 @@ struct VulkanFrame::Impl {
                 }
             }
         }
-        buffers = makeBuffers(device, wishes);
+        std::vector<VulkanBufferWish> own;
+        for (std::size_t i = 0; i < wishes.size(); ++i) {
+            if (frame.buffers[i].source != FrameSource::shared) own.push_back(wishes[i]);
+        }
+        const std::vector<VulkanBuffer> made = makeBuffers(device, own);
+        for (auto next = made.begin(); const FrameBuffer& buffer : frame.buffers) {
+            buffers.push_back(buffer.source == FrameSource::shared ? lentBuffer(lender, buffer) : *next++);
+        }
         bool copiesUp = false, copiesDown = false;
         for (std::size_t i = 0; i < buffers.size(); ++i) {
             if (buffers[i].mapped != nullptr) continue;
@@ -85,6 +92,13 @@ struct VulkanFrame::Impl {
         }
         if (copiesUp) uploadCopies = makeHostCopy(hostBytes, VulkanMemoryUse::upload);
         if (copiesDown) downloadCopy = makeHostCopy(largestRead, VulkanMemoryUse::download);
+    }
+
+    static const VulkanBuffer& lentBuffer(const Impl* lender, const FrameBuffer& wanted) {
+        const std::size_t i = lender != nullptr ? lender->frame.bufferIndex(wanted.name) : 0;
+        const bool lent = lender != nullptr && i < lender->buffers.size() && lender->frame.buffers[i].bytes >= wanted.bytes;
+        if (!lent) throw std::runtime_error("no frame lends " + std::to_string(wanted.bytes) + " bytes of buffer " + wanted.name);
+        return lender->buffers[i];
     }
 
     VulkanBuffer makeHostCopy(vk::DeviceSize bytes, VulkanMemoryUse use) const {
@@ -148,7 +162,7 @@ struct VulkanFrame::Impl {
     void copyUploads() {
         for (std::size_t i = 0; i < uploads.size(); ++i) {
             if (uploads[i].newBytes == 0) continue;
-            transfer.copyBuffer(*uploadCopies.buffer, *buffers[i].buffer, vk::BufferCopy(uploads[i].offset, 0, uploads[i].newBytes));
+            transfer.copyBuffer(uploadCopies.buffer, buffers[i].buffer, vk::BufferCopy(uploads[i].offset, 0, uploads[i].newBytes));
             uploads[i].newBytes = 0;
         }
     }
@@ -156,20 +170,20 @@ struct VulkanFrame::Impl {
     // From one layout to another; images stay in the general one, which allows everything, but for copies.
     void changeLayout(std::size_t i, vk::ImageLayout from, vk::ImageLayout to) {
         const vk::AccessFlags all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
-        vk::ImageMemoryBarrier barrier(all, all, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *buffers[i].image);
+        vk::ImageMemoryBarrier barrier(all, all, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffers[i].image);
         barrier.setSubresourceRange({imageAspect(frame.buffers[i].image), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS});
         transfer.pipelineBarrier(vk::PipelineStageFlagBits::eAllCommands, vk::PipelineStageFlagBits::eAllCommands, {}, {}, {}, barrier);
     }
 
     // The start of a buffer or image to where the host reads it.
     void copyDown(std::size_t i, std::size_t bytes) {
-        if (!frame.buffers[i].isImage()) return transfer.copyBuffer(*buffers[i].buffer, *downloadCopy.buffer, vk::BufferCopy(0, 0, bytes));
+        if (!frame.buffers[i].isImage()) return transfer.copyBuffer(buffers[i].buffer, downloadCopy.buffer, vk::BufferCopy(0, 0, bytes));
         const FrameImage& image = frame.buffers[i].image;
         const bool isVolume = image.shape == FrameShape::volume;
         const vk::ImageSubresourceLayers layers(imageAspect(image), 0, 0, isVolume ? 1 : image.extent.z);
         const vk::Extent3D extent(image.extent.x, image.extent.y, isVolume ? image.extent.z : 1);
         changeLayout(i, vk::ImageLayout::eGeneral, vk::ImageLayout::eTransferSrcOptimal);
-        transfer.copyImageToBuffer(*buffers[i].image, vk::ImageLayout::eTransferSrcOptimal, *downloadCopy.buffer, vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
+        transfer.copyImageToBuffer(buffers[i].image, vk::ImageLayout::eTransferSrcOptimal, downloadCopy.buffer, vk::BufferImageCopy(0, 0, 0, layers, {}, extent));
         changeLayout(i, vk::ImageLayout::eTransferSrcOptimal, vk::ImageLayout::eGeneral);
     }
 
@@ -200,8 +214,8 @@ struct VulkanFrame::Impl {
     }
 };
 
-VulkanFrame::VulkanFrame(VulkanDevice& device, const Frame& frame, ShaderLanguage language)
-    : impl_(inWords([&] { return std::make_unique<Impl>(device.impl(), frame, language); })) {}
+VulkanFrame::VulkanFrame(VulkanDevice& device, const Frame& frame, ShaderLanguage language, const VulkanFrame* lender)
+    : impl_(inWords([&] { return std::make_unique<Impl>(device.impl(), frame, language, lender != nullptr ? lender->impl_.get() : nullptr); })) {}
 VulkanFrame::~VulkanFrame() = default;
 
 void VulkanFrame::uploadBytes(std::string_view buffer, std::span<const std::byte> bytes) {

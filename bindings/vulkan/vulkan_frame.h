@@ -17,9 +17,10 @@ namespace clv {
 
 class VulkanFrame {
 public:
-    // Takes all memory, makes all pipelines and records all commands: later calls do neither. The device must outlive it.
+    // Takes all memory, makes all pipelines and records all commands: later calls do neither. The device must outlive it; `lender`, whose
+    // buffers it shares, need not.
     // Throws std::runtime_error with one line: a description with a fault, a shader that does not match it, too little memory.
-    VulkanFrame(VulkanDevice& device, const Frame& frame, ShaderLanguage language = ShaderLanguage::glsl);
+    VulkanFrame(VulkanDevice& device, const Frame& frame, ShaderLanguage language = ShaderLanguage::glsl, const VulkanFrame* lender = nullptr);
     ~VulkanFrame();
     VulkanFrame(const VulkanFrame&) = delete;
     VulkanFrame& operator=(const VulkanFrame&) = delete;

@@ -97,12 +97,15 @@ std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::spa
     std::vector<vk::MemoryAllocateInfo> allocations;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         const bool isImage = wishes[i].image.format != FrameFormat::none;
+        const auto owner = buffers[i].owner = std::make_shared<VulkanBuffer::Memory>();
         if (isImage) {
-            buffers[i].image = makeImage(device, wishes[i]);
+            owner->image = makeImage(device, wishes[i]);
+            buffers[i].image = *owner->image;
         } else {
-            buffers[i].buffer = vk::raii::Buffer(device.device, {{}, wishes[i].bytes, wishes[i].usage, vk::SharingMode::eExclusive});
+            owner->buffer = vk::raii::Buffer(device.device, {{}, wishes[i].bytes, wishes[i].usage, vk::SharingMode::eExclusive});
+            buffers[i].buffer = *owner->buffer;
         }
-        const vk::MemoryRequirements needs = isImage ? buffers[i].image.getMemoryRequirements() : buffers[i].buffer.getMemoryRequirements();
+        const vk::MemoryRequirements needs = isImage ? owner->image.getMemoryRequirements() : owner->buffer.getMemoryRequirements();
         allocations.emplace_back(needs.size, kinds.choose(wishes[i], needs.memoryTypeBits));
         needed[kinds.heapOf(allocations[i].memoryTypeIndex)] += needs.size;
     }
@@ -110,14 +113,15 @@ std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::spa
         if (needed[heap] > free[heap]) throw std::runtime_error("Vulkan: the frame takes " + mebibytes(needed[heap]) + " of memory, of which " + device.info.name + " has " + mebibytes(free[heap]) + " free");
     }
     for (std::size_t i = 0; i < wishes.size(); ++i) {
-        buffers[i].memory = vk::raii::DeviceMemory(device.device, allocations[i]);
-        if (wishes[i].image.format != FrameFormat::none) {
-            buffers[i].image.bindMemory(*buffers[i].memory, 0);
+        VulkanBuffer::Memory& owner = *buffers[i].owner;
+        owner.memory = vk::raii::DeviceMemory(device.device, allocations[i]);
+        if (buffers[i].image) {
+            owner.image.bindMemory(*owner.memory, 0);
             continue;
         }
-        buffers[i].buffer.bindMemory(*buffers[i].memory, 0);
+        owner.buffer.bindMemory(*owner.memory, 0);
         const bool mappable = wishes[i].use != VulkanMemoryUse::device && kinds.isMappable(allocations[i].memoryTypeIndex);
-        if (mappable) buffers[i].mapped = static_cast<std::byte*>(buffers[i].memory.mapMemory(0, VK_WHOLE_SIZE));
+        if (mappable) buffers[i].mapped = static_cast<std::byte*>(owner.memory.mapMemory(0, VK_WHOLE_SIZE));
     }
     return buffers;
 }

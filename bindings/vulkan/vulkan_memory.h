@@ -1,5 +1,6 @@
 // Buffers and images of a frame: on the device, and where the host reaches them.
 #pragma once
+#include <memory>
 #include <span>
 
 #include "bindings/vulkan/vulkan_device_impl.h"
@@ -7,11 +8,16 @@
 
 namespace clv {
 
-// A buffer or an image with memory of its own.
+// A buffer or an image with memory of its own, which is freed after the last copy.
 struct VulkanBuffer {
-    vk::raii::DeviceMemory memory = nullptr;
-    vk::raii::Buffer buffer = nullptr;
-    vk::raii::Image image = nullptr;
+    struct Memory {
+        vk::raii::DeviceMemory memory = nullptr;
+        vk::raii::Buffer buffer = nullptr;
+        vk::raii::Image image = nullptr;
+    };
+    std::shared_ptr<Memory> owner;
+    vk::Buffer buffer;            // one of these is null
+    vk::Image image;
     std::byte* mapped = nullptr;  // where the host reads and writes it, or null
 };
 

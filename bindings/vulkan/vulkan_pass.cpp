@@ -46,17 +46,17 @@ struct Stages {
 };
 
 void bind(const VulkanDevice::Impl& device, const FrameBuffer& description, const FrameUse& use, const VulkanBuffer& buffer, VulkanPass& made) {
-    const vk::DescriptorBufferInfo whole(*buffer.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo whole(buffer.buffer, 0, VK_WHOLE_SIZE);
     vk::DescriptorImageInfo image;
     vk::WriteDescriptorSet write(*made.set, description.binding, 0, 1, descriptorType(use.binding), &image, &whole);
     if (use.binding == FrameBinding::texel) {
-        made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, *buffer.buffer, vulkanFormat(use.format), 0, VK_WHOLE_SIZE));
+        made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, buffer.buffer, vulkanFormat(use.format), 0, VK_WHOLE_SIZE));
         write.pTexelBufferView = &*made.views.back();
     }
     if (use.binding == FrameBinding::image) {
         const std::uint32_t layers = description.image.shape == FrameShape::volume ? 1 : description.image.extent.z;
         const vk::ImageSubresourceRange range(imageAspect(description.image), 0, 1, 0, layers);
-        made.imageViews.emplace_back(device.device, vk::ImageViewCreateInfo({}, *buffer.image, viewType(description.image.shape), vulkanFormat(description.image.format), {}, range));
+        made.imageViews.emplace_back(device.device, vk::ImageViewCreateInfo({}, buffer.image, viewType(description.image.shape), vulkanFormat(description.image.format), {}, range));
         image = vk::DescriptorImageInfo(nullptr, *made.imageViews.back(), vk::ImageLayout::eGeneral);
     }
     device.device.updateDescriptorSets(write, {});
@@ -122,7 +122,7 @@ void recordPass(const vk::raii::CommandBuffer& commands, const Frame& frame, con
         if (frame.buffers[barrier.buffer].isImage()) {
             commands.pipelineBarrier(stageOf(earlier), stageOf(pass), {}, vk::MemoryBarrier(before, after), {}, {});
         } else {
-            const vk::BufferMemoryBarrier memory(before, after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *buffers[barrier.buffer].buffer, 0, VK_WHOLE_SIZE);
+            const vk::BufferMemoryBarrier memory(before, after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffers[barrier.buffer].buffer, 0, VK_WHOLE_SIZE);
             commands.pipelineBarrier(stageOf(earlier), stageOf(pass), {}, {}, memory, {});
         }
     }
@@ -135,9 +135,9 @@ void recordPass(const vk::raii::CommandBuffer& commands, const Frame& frame, con
 }
 
 void recordClear(const vk::raii::CommandBuffer& commands, const FrameBuffer& description, const VulkanBuffer& buffer) {
-    if (!description.isImage()) return commands.fillBuffer(*buffer.buffer, 0, VK_WHOLE_SIZE, 0);
+    if (!description.isImage()) return commands.fillBuffer(buffer.buffer, 0, VK_WHOLE_SIZE, 0);
     const vk::ImageSubresourceRange all(imageAspect(description.image), 0, 1, 0, VK_REMAINING_ARRAY_LAYERS);
-    commands.clearColorImage(*buffer.image, vk::ImageLayout::eGeneral, vk::ClearColorValue(), all);
+    commands.clearColorImage(buffer.image, vk::ImageLayout::eGeneral, vk::ClearColorValue(), all);
 }
 
 }  // namespace clv

@@ -61,7 +61,7 @@ VulkanRaster makeRaster(const VulkanDevice::Impl& device, const Frame& frame, co
         for (const FrameUse& use : targets) {
             const FrameImage& image = frame.buffers[use.buffer].image;
             const vk::ImageSubresourceRange range(imageAspect(image), 0, 1, std::min(layer, image.extent.z - 1), 1);
-            raster.views.emplace_back(device.device, vk::ImageViewCreateInfo({}, *buffers[use.buffer].image, vk::ImageViewType::e2D, vulkanFormat(image.format), {}, range));
+            raster.views.emplace_back(device.device, vk::ImageViewCreateInfo({}, buffers[use.buffer].image, vk::ImageViewType::e2D, vulkanFormat(image.format), {}, range));
             views.push_back(*raster.views.back());
         }
         raster.framebuffers.emplace_back(device.device, vk::FramebufferCreateInfo({}, *raster.renderPass, views, extent.x, extent.y, 1));
@@ -104,7 +104,7 @@ void recordDraws(const vk::raii::CommandBuffer& commands, const FramePass& pass,
         if (arguments == pass.uses.end()) {
             commands.draw(pass.raster.vertices, 1, 0, 0);
         } else {
-            commands.drawIndirect(*buffers[arguments->buffer].buffer, layer * sizeof(FrameDrawArguments), 1, sizeof(FrameDrawArguments));
+            commands.drawIndirect(buffers[arguments->buffer].buffer, layer * sizeof(FrameDrawArguments), 1, sizeof(FrameDrawArguments));
         }
         commands.endRenderPass();
     }

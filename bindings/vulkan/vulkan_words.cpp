@@ -26,9 +26,9 @@ vk::DescriptorType descriptorType(FrameBinding binding) {
 vk::BufferUsageFlags bufferUsage(FrameBinding binding) {
     switch (binding) {
         case FrameBinding::uniform: return vk::BufferUsageFlagBits::eUniformBuffer;
-        case FrameBinding::texel: return vk::BufferUsageFlagBits::eUniformTexelBuffer;
         case FrameBinding::arguments: return vk::BufferUsageFlagBits::eIndirectBuffer;
-        default: return vk::BufferUsageFlagBits::eStorageBuffer;
+        // A frame that shares the buffer may use it the other way.
+        default: return vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
 }
 

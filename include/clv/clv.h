@@ -65,6 +65,7 @@
 #include "plan/direction_frame.h"
 #include "plan/frame.h"
 #include "plan/frame_check.h"
+#include "plan/largest_flux.h"
 #include "plan/light_frame.h"
 #include "plan/map_faces.h"
 #include "plan/needs.h"

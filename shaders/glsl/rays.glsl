@@ -18,7 +18,7 @@ void main() {
     uint i = clvItem(gl_GlobalInvocationID);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    uint index = frame.firstIndex + i / perHalf * perHalf + clvNeighbourIndex(i % perHalf, perHalf);
+    uint index = frame.firstIndex + i / perHalf * frame.halfStep + clvNeighbourIndex(i % perHalf, perHalf);
     vec4 u = clvSobol4(index, frame.seed);
     ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.texelRows, vec2(u.x, u.y));
     ClvRay ray = clvDeadRay();

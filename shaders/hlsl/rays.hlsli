@@ -18,7 +18,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
     uint i = clvItem(thread);
     if (i >= frame.rayCount) return;
     uint perHalf = frame.rayCount / frame.halves;
-    uint index = frame.firstIndex + i / perHalf * perHalf + clvNeighbourIndex(i % perHalf, perHalf);
+    uint index = frame.firstIndex + i / perHalf * frame.halfStep + clvNeighbourIndex(i % perHalf, perHalf);
     float4 u = clvSobol4(index, frame.seed);
     ClvTexelPick pick = clvPickTexel(frame.rsmSide, frame.texelRows, float2(u.x, u.y));
     ClvRay ray = clvDeadRay();

@@ -136,6 +136,32 @@ TEST(LightFrame, leavesOutWhatNobodyReads) {
     for (const char* buffer : {"brick cursors 0", "brick begins 0", "brick rays 0", "brick slots 0", "brick mask 0", "slots 0"}) EXPECT_FALSE(has(atomics, buffer)) << buffer;
 }
 
+TEST(LightFrame, takesEmittersInPlaceOfMaps) {
+    LightFrameSettings settings = smallSettings();
+    settings.lights = 0, settings.emitters = 4 * settings.rsmSide;
+    for (const bool keepHits : {false, true}) {
+        settings.keepHits = keepHits;
+        const Frame frame = lightFrame(settings);
+        EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+        EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"texel rows", "texel columns"}));
+        EXPECT_TRUE(frame.buffers[frame.bufferIndex("texels")].source == FrameSource::host);
+        EXPECT_EQ(frame.buffers[frame.bufferIndex("texels")].bytes, settings.emitters * sizeof(ClvRsmTexel));
+        EXPECT_FALSE(has(frame, "lights"));
+        EXPECT_EQ(has(frame, "surfaces"), keepHits) << "what rays hit matters to further bounces alone";
+    }
+}
+
+TEST(LightFrame, sharesTheRaysOfAnotherFrame) {
+    LightFrameSettings settings = smallSettings();
+    settings.lights = 0;
+    const std::uint64_t bytes = lightFrame(settings).bytes();
+    settings.sharedRays = true;
+    const Frame frame = lightFrame(settings);
+    EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+    EXPECT_TRUE(frame.buffers[frame.bufferIndex("rays")].source == FrameSource::shared);
+    EXPECT_EQ(bytes - frame.bytes(), settings.rays * sizeof(ClvRay)) << "what is shared takes no memory";
+}
+
 TEST(LightFrame, bindsAGuideOnlyWhereThereIsOne) {
     LightFrameSettings settings = smallSettings();
     for (const char* buffer : {"guide", "guide cells", "guide weights"}) EXPECT_FALSE(has(lightFrame(settings), buffer)) << buffer;

@@ -205,6 +205,52 @@ TEST(VulkanFrame, timesEachPassOfAStepThatHasRun) {
     EXPECT_LT(times[0].second, 60e3);
 }
 
+// A frame of one step that clears what another frame lends it.
+Frame clearingFrame(std::uint64_t bytes) {
+    Frame frame;
+    frame.buffers = {{"rays", CLV_BIND_RAYS, bytes, FrameSource::shared, true}};
+    frame.steps = {{"clear", {{"clear", "", {}, {{0, FrameBinding::storage, FrameAccess::write}}, uvec3(1), {}}}}};
+    return frame;
+}
+
+TEST(VulkanFrame, sharesBuffersOfAnotherFrame) {
+    const RaysFrame scene;
+    const std::uint64_t bytes = RaysFrame::kRays * sizeof(ClvRay);
+    for (const bool separate : {false, true}) {
+        WatchedVulkan& watched = watchVulkan();
+        watched.separateMemory = separate;
+        VulkanDevice device({.validate = true, .loader = watchedLoader()});
+        auto lender = std::make_unique<VulkanFrame>(device, scene.frame);
+        const std::uint64_t before = watched.bytesTaken;
+        VulkanFrame borrower(device, clearingFrame(bytes), ShaderLanguage::glsl, lender.get());
+        EXPECT_EQ(watched.bytesTaken, before + (separate ? bytes : 0)) << "more than the copy that the host reads";
+        scene.uploadTo(*lender);
+        lender->run("light");
+        const auto rays = RaysFrame::raysOf(*lender);
+        EXPECT_FALSE(isZero(rays));
+        EXPECT_TRUE(sameBits(RaysFrame::raysOf(borrower), rays));
+        borrower.run("clear");
+        EXPECT_TRUE(isZero(RaysFrame::raysOf(*lender)));
+        lender->run("light");
+        lender.reset();
+        EXPECT_TRUE(sameBits(RaysFrame::raysOf(borrower), rays)) << "what is shared ends with its last user";
+        EXPECT_EQ(device.messages(), std::vector<std::string>());
+    }
+    watchVulkan();
+}
+
+TEST(VulkanFrame, refusesToShareWhatNobodyLends) {
+    const RaysFrame scene;
+    VulkanDevice device;
+    VulkanFrame lender(device, scene.frame);
+    const std::uint64_t bytes = RaysFrame::kRays * sizeof(ClvRay);
+    expectError([&] { VulkanFrame run(device, clearingFrame(bytes)); }, "no frame lends " + std::to_string(bytes) + " bytes of buffer rays");
+    expectError([&] { VulkanFrame run(device, clearingFrame(bytes + 4), ShaderLanguage::glsl, &lender); }, "no frame lends");
+    Frame other = clearingFrame(bytes);
+    other.buffers[0].name = "hits";
+    expectError([&] { VulkanFrame run(device, other, ShaderLanguage::glsl, &lender); }, "of buffer hits");
+}
+
 // An executor that shares nothing with the back end but the description gives the same bits.
 TEST(VulkanFrame, isWhatAnotherExecutorMakesOfTheDescription) {
     const RaysFrame scene;

@@ -15,9 +15,9 @@ struct RaysFrame {
     static constexpr std::uint32_t kSide = 8, kRays = 4096;
 
     Frame frame;
-    ClvFrame constants{.boundsLo = vec3(0.0f), .rayCount = kRays, .boundsHi = vec3(1.0f), .halves = 2, .firstIndex = 64, .seed = 7,
-                       .rsmPass = 0, .rsmSeed = 0, .rsmSide = kSide, .texelRows = kSide, .receiverCount = 0, .originOffset = 1e-3f,
-                       .axisX = vec3(0.0f), .triangleCount = 0, .axisY = vec3(0.0f), .faceCount = 0, .axisZ = vec3(0.0f), .faceSide = 0};
+    ClvFrame constants{.boundsLo = vec3(0.0f), .rayCount = kRays, .boundsHi = vec3(1.0f), .halves = 2, .firstIndex = 64, .halfStep = kRays, .seed = 7,
+                       .rsmPass = 0, .rsmSeed = 0, .rsmSide = kSide, .texelRows = kSide, .receiverCount = 0, .axisX = vec3(0.0f), .originOffset = 1e-3f,
+                       .axisY = vec3(0.0f), .triangleCount = 0, .axisZ = vec3(0.0f), .faceCount = 0, .faceSide = 0, .pad0 = 0, .pad1 = 0, .pad2 = 0};
     std::vector<ClvRsmTexel> texels = std::vector<ClvRsmTexel>(kSide * kSide);
     std::vector<float> sums;
 

@@ -29,7 +29,7 @@ struct TracedScene {
         : scene(std::move(source)), embree(scene), bvh(buildBvh(scene)), rows(surfaceRowsOf(scene)) {
         for (const NamedLight& light : scene.lights) lights.push_back(light.light);
         constants.boundsLo = scene.bounds.lo, constants.boundsHi = scene.bounds.hi;
-        constants.rayCount = rays, constants.halves = 2, constants.seed = 3;
+        constants.rayCount = rays, constants.halves = 2, constants.halfStep = rays / 2, constants.seed = 3;
         constants.rsmPass = 2, constants.rsmSeed = 5, constants.rsmSide = side, constants.texelRows = uint(lights.size()) * side;
         constants.originOffset = embree.surfaceOffset(), constants.triangleCount = uint(bvh.triangles.size() / kClvTriangleRows);
         settings.lights = lights.size(), settings.rsmSide = side, settings.rays = rays, settings.halves = 2, settings.keepHits = keepHits;
@@ -52,7 +52,7 @@ struct TracedScene {
 
     void uploadScene(VulkanFrame& vulkan) const {
         vulkan.upload("frame", constants);
-        vulkan.upload("lights", std::span<const ClvLight>(lights));
+        if (settings.lights > 0) vulkan.upload("lights", std::span<const ClvLight>(lights));
         vulkan.upload("bvh boxes", std::span<const vec4>(bvh.boxes));
         vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
         vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
@@ -75,19 +75,21 @@ struct TracedScene {
         std::vector<ClvRay> rays;
         std::vector<ClvHit> hits;
     };
-    Results run(ShaderLanguage language) {
+    // `emitters`: in place of maps, where the settings say so.
+    Results run(ShaderLanguage language, std::span<const ClvRsmTexel> emitters = {}) {
         Frame frame = lightFrame(settings);
         for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || (buffer.source == FrameSource::passes && !buffer.isImage());
         VulkanFrame vulkan(device, frame, language);
         uploadScene(vulkan);
+        if (settings.emitters > 0) vulkan.upload("texels", emitters);
         vulkan.run("rsm");
         vulkan.run("light");
         Results results;
-        const std::size_t height = settings.lights * settings.rsmSide;
+        const std::size_t height = constants.texelRows;
         results.texels.resize(height * settings.rsmSide);
         results.sums.resize(height * (settings.rsmSide + 1) + height + 1);
         results.rays.resize(settings.rays);
-        vulkan.download("texels", std::span(results.texels));
+        if (settings.lights > 0) vulkan.download("texels", std::span(results.texels));
         vulkan.download("texel sums", std::span(results.sums));
         vulkan.download("rays", std::span(results.rays));
         if (settings.keepHits) {
@@ -104,8 +106,8 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 // The same run in both languages, compared to the bit; the validation layer must be silent.
-inline TracedScene::Results runInBothLanguages(TracedScene& traced) {
-    const TracedScene::Results glsl = traced.run(ShaderLanguage::glsl), hlsl = traced.run(ShaderLanguage::hlsl);
+inline TracedScene::Results runInBothLanguages(TracedScene& traced, std::span<const ClvRsmTexel> emitters = {}) {
+    const TracedScene::Results glsl = traced.run(ShaderLanguage::glsl, emitters), hlsl = traced.run(ShaderLanguage::hlsl, emitters);
     EXPECT_TRUE(sameBits(glsl.texels, hlsl.texels));
     EXPECT_TRUE(sameBits(glsl.sums, hlsl.sums));
     EXPECT_TRUE(sameBits(glsl.rays, hlsl.rays));

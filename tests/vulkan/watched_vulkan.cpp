@@ -24,21 +24,22 @@ Function realAs(const char* name) {
     return reinterpret_cast<Function>(realFunctions.at(name));
 }
 
+// Counts a call of the function. Whether it is to fail.
+bool fails(const std::string& name) { return ++watched.calls[name] > watched.failAfter && watched.failing == name; }
+
 // Counts calls of a function that returns a VkResult, and lets it fail.
 template <class Function, const char* name>
 struct Watched;
 template <class... Arguments, const char* name>
 struct Watched<VkResult(VKAPI_PTR*)(Arguments...), name> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
-        ++watched.calls[name];
-        if (watched.failing == name) return VkResult(watched.failure);
+        if (fails(name)) return VkResult(watched.failure);
         return realAs<VkResult(VKAPI_PTR*)(Arguments...)>(name)(arguments...);
     }
 };
 
 VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
-    ++watched.calls["vkAllocateMemory"];
-    if (watched.failing == "vkAllocateMemory") return VkResult(watched.failure);
+    if (fails("vkAllocateMemory")) return VkResult(watched.failure);
     watched.bytesTaken += info->allocationSize;
     VkMemoryAllocateInfo one = *info;
     if (watched.separateMemory) one.memoryTypeIndex = 0;
@@ -65,6 +66,7 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerateDeviceExtensions(VkPhysicalDevice device
 VKAPI_ATTR void VKAPI_CALL getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {
     realAs<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(device, properties);
     if (watched.oldDevices) properties->apiVersion = VK_API_VERSION_1_0;
+    if (watched.discrete) properties->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
 }
 
 VKAPI_ATTR void VKAPI_CALL getProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {

@@ -16,7 +16,9 @@ struct WatchedVulkan {
 
     std::string failing;                  // name of a function that fails
     int failure = 0;                      // with this VkResult
+    int failAfter = 0;                    // calls of it that succeed first
     int devices = 1;                      // the first device, this often
+    bool discrete = false;                // they are cards of their own
     bool oldDevices = false;              // they have Vulkan 1.0 alone
     bool coreFeaturesOnly = false;        // they have neither extensions nor subgroups that shuffle
     bool separateMemory = false;          // the host does not reach the device's memory

@@ -73,6 +73,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     };
     all[0].triangles = all[0].bvhNodes = 10, all[0].rsmSide = 8, all[0].rays = 64;
     vary([](LightFrameSettings& s, std::uint64_t lights) { s.lights = lights; }, 0, 2);
+    all.push_back(all[0]), all.back().emitters = 16;
     vary([](LightFrameSettings& s, std::uint64_t texels) { s.textureTexels = texels; }, 0, 16);
     vary([](LightFrameSettings& s, std::uint32_t faces) { s.mapFaces = faces, s.faceSide = 8; }, 0, 3);
     vary([](LightFrameSettings& s, bool keepHits) { s.keepHits = keepHits; }, false, true);

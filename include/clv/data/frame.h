@@ -5,25 +5,29 @@
 #include "light_volume.h"
 CLV_NAMESPACE_BEGIN
 
-struct ClvFrame {        // 112 bytes; of the whole frame
+struct ClvFrame {        // 128 bytes; of the whole frame
     vec3 boundsLo;       // m, relative to the anchor: what the maps of directional lights cover
     uint rayCount;       // >= 1, a multiple of `halves`
     vec3 boundsHi;
     uint halves;         // 1 or 2: the rays are cut into as many estimates, one after the other
     uint firstIndex;     // of this frame's first ray in the sequence that all halves share
+    uint halfStep;       // from a half's first ray to that of the next, in that sequence
     uint seed;           // of the rays
     uint rsmPass;        // which of the well-spread points of its texels this frame's map samples
     uint rsmSeed;        // a light adds its number
     uint rsmSide;        // texels in a row: along a side of a light's map
     uint texelRows;      // of all maps, stacked: light k owns the rows [k, k + 1) * rsmSide
     uint receiverCount;
-    float originOffset;  // m, >= 0: rays start this far above their surface
     vec3 axisX;          // of the axes along which cells keep directions: orthogonal, of unit length
-    uint triangleCount;  // in the tree
+    float originOffset;  // m, >= 0: rays start this far above their surface
     vec3 axisY;
-    uint faceCount;      // of maps that are drawn
+    uint triangleCount;  // in the tree
     vec3 axisZ;
+    uint faceCount;      // of maps that are drawn
     uint faceSide;       // texels along a side of a face
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 struct ClvLevelFrame {   // 96 bytes; of one level of the light volume

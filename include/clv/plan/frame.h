@@ -21,6 +21,7 @@ enum class FrameSource {
     host,    // written by the host before the first frame, and whenever it likes between frames
     zero,    // zero before the first frame, then written by passes
     passes,  // a pass writes it before any reads it
+    shared,  // another frame's buffer of that name, which that frame has written
 };
 
 enum class FrameShape { flat, array, volume };  // one layer; a stack of them; a 3D image, whose slices are drawn into as layers are
@@ -117,10 +118,10 @@ struct Frame {
     std::vector<FrameBuffer> buffers;  // and images
     std::vector<FrameStep> steps;
 
-    // Memory that buffers and images take together, before any of it is taken.
+    // Memory that the frame's own buffers and images take together, before any of it is taken.
     std::uint64_t bytes() const {
         std::uint64_t sum = 0;
-        for (const FrameBuffer& buffer : buffers) sum += buffer.bytes;
+        for (const FrameBuffer& buffer : buffers) sum += buffer.source == FrameSource::shared ? 0 : buffer.bytes;
         return sum;
     }
     // Index of the buffer of that name; buffers.size() if there is none.

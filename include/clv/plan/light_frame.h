@@ -45,8 +45,10 @@ struct LightFrameLevel {
 };
 
 struct LightFrameSettings {
-    // Without lights the frame begins with rays that the host, or the engine's own tracer, has written and cut.
+    // Without lights and emitters the frame begins with rays that the host, or the engine's own tracer, has written and cut.
     std::uint64_t lights = 0, rsmSide = 0, triangles = 0, bvhNodes = 0;
+    std::uint64_t emitters = 0;        // texels that the host writes in place of the lights' maps, in rows of rsmSide
+    bool sharedRays = false;           // without lights and emitters: the rays are another frame's
     std::uint64_t textureTexels = 0;   // of all textures together; 0: a scene without any
     std::uint32_t mapFaces = 0, faceSide = 0;  // > 0: reflective shadow maps are drawn, in so many pictures; see plan/map_faces.h
     std::uint64_t rays = 0;            // a frame
@@ -106,8 +108,10 @@ public:
 
     Frame build() {
         const auto frame = add("frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host);
-        const auto rays = add("rays", CLV_BIND_RAYS, s_.rays * sizeof(ClvRay), s_.lights > 0 ? FrameSource::passes : FrameSource::host, true);
-        if (s_.lights > 0) {
+        const bool draws = s_.lights > 0 || s_.emitters > 0;
+        const FrameSource source = draws ? FrameSource::passes : s_.sharedRays ? FrameSource::shared : FrameSource::host;
+        const auto rays = add("rays", CLV_BIND_RAYS, s_.rays * sizeof(ClvRay), source, !s_.sharedRays);
+        if (draws) {
             addRays(frame, rays);
         } else {
             begin("light");
@@ -174,23 +178,23 @@ private:
 
     // The steps that end with this frame's rays, cut.
     void addRays(std::uint32_t frame, std::uint32_t rays) {
-        const std::uint64_t texels = s_.lights * s_.rsmSide * s_.rsmSide, rows = s_.lights * s_.rsmSide;
-        const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
+        const std::uint64_t rows = s_.emitters > 0 ? s_.emitters / s_.rsmSide : s_.lights * s_.rsmSide, texels = rows * s_.rsmSide;
         const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
         const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
         const auto triangles = add("triangles", CLV_BIND_TRIANGLES, s_.triangles * kClvTriangleRows * sizeof(vec4), FrameSource::host);
-        const auto surfaces = add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host);
-        const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), FrameSource::passes);
+        const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), s_.emitters > 0 ? FrameSource::host : FrameSource::passes);
         const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
         const Uses tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
-        Uses scene = with(tree, {texel(surfaces)});
+        Uses surfaces;
         std::string textured;
-        if (s_.textureTexels > 0) {
+        const auto bindSurfaces = [&] {
+            surfaces.push_back(texel(add("surfaces", CLV_BIND_SURFACES, s_.triangles * kClvSurfaceRows * sizeof(vec4), FrameSource::host)));
+            if (s_.textureTexels == 0) return;
             textured = "_textured";
-            scene.push_back(texel(add("texture rows", CLV_BIND_TEXTURE_ROWS, s_.triangles * kClvTextureRows * sizeof(uvec4), FrameSource::host), FrameFormat::rgba32Uint));
-            scene.push_back(texel(add("texture texels", CLV_BIND_TEXTURE_TEXELS, s_.textureTexels * sizeof(vec4), FrameSource::host)));
-        }
-
+            surfaces.push_back(texel(add("texture rows", CLV_BIND_TEXTURE_ROWS, s_.triangles * kClvTextureRows * sizeof(uvec4), FrameSource::host), FrameFormat::rgba32Uint));
+            surfaces.push_back(texel(add("texture texels", CLV_BIND_TEXTURE_TEXELS, s_.textureTexels * sizeof(vec4), FrameSource::host)));
+        };
+        if (s_.emitters == 0 || s_.keepHits) bindSurfaces();
         Uses guide;
         std::string guided;
         if (s_.guideRows > 0) {
@@ -201,16 +205,7 @@ private:
         }
 
         begin("rsm");
-        if (s_.mapFaces > 0) {
-            const auto faces = add("map faces", CLV_BIND_MAP_FACES, s_.mapFaces * sizeof(ClvMapFace), FrameSource::host);
-            const auto seen = addImage("face triangles", CLV_BIND_FACE_TRIANGLES, {FrameFormat::r32Uint, FrameShape::array, uvec3(s_.faceSide, s_.faceSide, s_.mapFaces)});
-            const auto depths = addImage("face depths", CLV_BIND_FACE_DEPTHS, {FrameFormat::depth32Float, FrameShape::flat, uvec3(s_.faceSide, s_.faceSide, 1)});
-            draw("map faces", "map_faces", {FrameTopology::triangles, std::uint32_t(3 * s_.triangles)}, {uniform(frame), read(faces), texel(triangles), target(seen), target(depths)});
-            Uses found = with({uniform(frame), read(lights), read(faces), image(seen), write(texelBuffer), texel(triangles)}, {scene.begin() + std::ptrdiff_t(tree.size()), scene.end()});
-            pass("rsm", "rsm_from_faces" + textured, groupsFor(texels), std::move(found));
-        } else {
-            pass("rsm", "rsm" + textured, groupsFor(texels), with({uniform(frame), read(lights), write(texelBuffer)}, scene));
-        }
+        if (s_.emitters == 0) addMaps(frame, texelBuffer, triangles, tree, surfaces, textured);
         pass("texel rows", "texel_rows" + guided, groupsFor(rows * CLV_GROUP_SIZE), with({uniform(frame), read(texelBuffer), write(sums)}, guide));
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
@@ -218,10 +213,25 @@ private:
         pass("rays", "rays" + guided, groupsFor(s_.rays), with({uniform(frame), read(texelBuffer), read(sums), write(rays)}, guide));
         if (s_.keepHits) {
             const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
-            pass("trace", "trace_hits" + textured, groupsFor(s_.rays), with({uniform(frame), readWrite(rays), write(hits)}, scene));
+            pass("trace", "trace_hits" + textured, groupsFor(s_.rays), with(with({uniform(frame), readWrite(rays), write(hits)}, tree), surfaces));
         } else {
             pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
         }
+    }
+
+    // The maps of the lights: traced through the tree, or drawn and then coloured by the surfaces that are seen.
+    void addMaps(std::uint32_t frame, std::uint32_t texels, std::uint32_t triangles, const Uses& tree, const Uses& surfaces, const std::string& textured) {
+        const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
+        const uvec3 groups = groupsFor(s_.lights * s_.rsmSide * s_.rsmSide);
+        if (s_.mapFaces == 0) {
+            pass("rsm", "rsm" + textured, groups, with(with({uniform(frame), read(lights), write(texels)}, tree), surfaces));
+            return;
+        }
+        const auto faces = add("map faces", CLV_BIND_MAP_FACES, s_.mapFaces * sizeof(ClvMapFace), FrameSource::host);
+        const auto seen = addImage("face triangles", CLV_BIND_FACE_TRIANGLES, {FrameFormat::r32Uint, FrameShape::array, uvec3(s_.faceSide, s_.faceSide, s_.mapFaces)});
+        const auto depths = addImage("face depths", CLV_BIND_FACE_DEPTHS, {FrameFormat::depth32Float, FrameShape::flat, uvec3(s_.faceSide, s_.faceSide, 1)});
+        draw("map faces", "map_faces", {FrameTopology::triangles, std::uint32_t(3 * s_.triangles)}, {uniform(frame), read(faces), texel(triangles), target(seen), target(depths)});
+        pass("rsm", "rsm_from_faces" + textured, groups, with({uniform(frame), read(lights), read(faces), image(seen), write(texels), texel(triangles)}, surfaces));
     }
 
     // Each ray adds to the sums of this frame, which are then merged and cleared.
