@@ -50,6 +50,7 @@ void addVulkanDevices(Report& report) {
     } catch (const std::runtime_error& error) {
         report["vulkan_missing"] = error.what();
     }
+    if (!rows.empty()) report["backends"].push_back("vulkan");
     report["vulkan_devices"] = std::move(rows);
 }
 
@@ -64,7 +65,7 @@ void addInfoCommand(CLI::App& app) {
         report["version"] = CLV_VERSION;
         report["hardware_threads"] = std::thread::hardware_concurrency();
         report["cpu_features"] = cpuFeatures();
-        report["backends"] = {"cpu"};
+        report["backends"] = Report::array({"cpu"});
         addVulkanDevices(report);
         printReport(report, *options);
     });

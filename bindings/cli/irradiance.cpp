@@ -19,7 +19,7 @@ struct IrradianceCommand {
     LightOptions light;
 
     void run(const CLI::App& command) const {
-        Report report = startReport(command, common);
+        Report report = startReport(command, common, true);
         if (!motion.empty()) throw InputError("--motion: light in motion is not available yet; expected a still scene");
         const Scene loaded = loadScene(scene, report);
         const PointTable table = readPointTable(points, loaded.anchor);
@@ -48,7 +48,10 @@ void addIrradianceCommand(CLI::App& app) {
     addLightOptions(*command, options->light);
     command->add_option("--motion", options->motion, "A JSON file of moving lights, camera and objects");
     addCommonOptions(*command, options->common);
-    command->callback([options, command] { options->run(*command); });
+    command->callback([options, command] {
+        options->light.backend.choice = options->common.backend;
+        options->run(*command);
+    });
 }
 
 }  // namespace clv

@@ -36,6 +36,8 @@ void addLightOptions(CLI::App& command, LightOptions& options) {
         ->delimiter(',')
         ->check(finiteNumber(-1.0, 1.0, "a shift in cells, above -1 and at most 1"));
     command.add_option("--proxy", options.proxy, "A simpler scene that rays are intersected with; the rest sees the full one");
+    command.add_option("--device", options.backend.device, "With --backend vulkan or auto: the device, by index or a part of its name; see clv info");
+    command.add_flag("--repeatable", options.backend.repeatable, "The same to the last bit from run to run, on a GPU too, where sums are then made of integers");
 }
 
 }  // namespace clv

@@ -10,6 +10,13 @@
 
 namespace clv {
 
+struct BackendOptions {
+    std::string choice = "cpu";   // "auto", "cpu" or "vulkan"
+    std::string device{};         // of Vulkan: index or a part of its name; empty: any
+    bool repeatable = false;      // the same to the last bit from run to run, on a GPU too
+    std::string loader{};         // see VulkanOptions
+};
+
 struct LightOptions {
     bool allBounces = false;
     int resolution = 0;                     // about resolution^3 cells; 0: chosen by the library
@@ -19,6 +26,7 @@ struct LightOptions {
     uint storage = kClvStorageCube9;
     std::array<double, 3> cellShift = {};   // cells, (-1, 1]
     std::string proxy;                      // scene that rays are intersected with instead, or empty
+    BackendOptions backend;
 };
 void addLightOptions(CLI::App& command, LightOptions& options);
 

@@ -35,8 +35,9 @@ ParallelFor parallelForOf(const CommonOptions& options) {
     return tbbParallelFor(threadCount(options));
 }
 
-Report startReport(const CLI::App& command, const CommonOptions& options) {
-    if (options.backend == "vulkan") throw InputError("--backend vulkan: commands compute on the CPU alone so far; expected auto or cpu");
+Report startReport(const CLI::App& command, const CommonOptions& options, bool usesGpu) {
+    if (options.backend == "vulkan" && !usesGpu)
+        throw InputError(fmt::format("--backend vulkan: {} computes on the CPU alone; expected auto or cpu", command.get_name()));
     return {{"command", command.get_name()}, {"backend", "cpu"}, {"threads", threadCount(options)}, {"seed", options.seed}};
 }
 

@@ -26,8 +26,8 @@ int threadCount(const CommonOptions& options);
 ParallelFor parallelForOf(const CommonOptions& options);
 
 // A report that starts with what every command says: its name, back end, threads and seed. Throws InputError for a back end
-// that this build does not have.
-Report startReport(const CLI::App& command, const CommonOptions& options);
+// that the command does not have.
+Report startReport(const CLI::App& command, const CommonOptions& options, bool usesGpu = false);
 // Prints the report on stdout: with --json as one object, else as lines for people. Throws std::runtime_error.
 void printReport(const Report& report, const CommonOptions& options);
 

@@ -27,12 +27,15 @@ struct PipelineReport {
     int channels = 0;                      // 0: nothing was stored
     double shareThatMeets = 0.0;           // of the pilot rays: what remains leaves the scene
     bool guided = false;                   // whether the other rays are sent to where the pilots met something
+    std::string backend = "cpu";           // or "vulkan"
+    std::string device;                    // of Vulkan
+    std::string whyCpu;                    // where "auto" came to the CPU
     std::vector<std::string> warnings;
 };
 
 // Indirect irradiance (W/m^2, without the static ambient term) at `points`, which are relative to the scene's anchor. `out` has the
 // same size. Results depend on the options and the seed, never on the number of threads; at a fixed resolution the value at a point
-// does not depend on the other points.
+// does not depend on the other points. Throws std::runtime_error where the back end that is asked for cannot be had or fails.
 PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
                            std::span<const ReferencePoint> points, std::span<glm::vec3> out);
 

@@ -122,7 +122,7 @@ struct RenderCommand {
     int width = 640, height = 0;  // pixels; height 0: follows from the camera
 
     void run(const CLI::App& command) const {
-        Report report = startReport(command, common);
+        Report report = startReport(command, common, true);
         const Scene loaded = loadScene(scene, report);
         const Camera& view = chooseCamera(loaded, camera);
         const int rows = height > 0 ? height : std::max(1, int(std::lround(float(width) / view.aspect)));
@@ -176,7 +176,10 @@ void addRenderCommand(CLI::App& app) {
     addCountOption(*command, "--samples", options->samples, "Paths a pixel of the reference picture");
     addCountOption(*command, "--error-samples", options->errorSamples, "Paths a pixel where errors are measured");
     addCommonOptions(*command, options->common);
-    command->callback([options, command] { options->run(*command); });
+    command->callback([options, command] {
+        options->light.backend.choice = options->common.backend;
+        options->run(*command);
+    });
 }
 
 }  // namespace clv

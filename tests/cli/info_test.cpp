@@ -18,6 +18,7 @@ TEST(Info, listsTheVulkanDevicesAndTheirPaths) {
     EXPECT_EQ(result.err, "");
     const Json report = Json::parse(result.out);
     EXPECT_FALSE(report.contains("vulkan_missing"));
+    EXPECT_EQ(report.at("backends"), Json({"cpu", "vulkan"}));
     ASSERT_FALSE(report.at("vulkan_devices").empty()) << "these tests need a Vulkan device, mesa-vulkan-drivers for one";
     const std::set<std::string> types{"discrete", "integrated", "virtual", "cpu", "other"}, ways{"bricks", "bricks without subgroups", "float atomics", "fixed point"};
     std::size_t index = 0;
@@ -48,6 +49,7 @@ TEST(Info, saysWhyThereIsNoDevice) {
     EXPECT_EQ(json.status, 0);
     const Json report = Json::parse(json.out);
     EXPECT_TRUE(report.at("vulkan_devices").empty());
+    EXPECT_EQ(report.at("backends"), Json::array({"cpu"}));
     EXPECT_EQ(report.at("vulkan_missing"), "Vulkan: no driver is installed");
     EXPECT_NE(text.out.find("Vulkan: no driver is installed"), std::string::npos);
 }

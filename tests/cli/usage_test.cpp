@@ -74,8 +74,9 @@ TEST_F(Usage, resolutionsRaysAndShiftsOutOfRangeAreRefused) {
     expectRefused(call("irradiance", {"--motion", "m.json"}), {"--motion", "not available yet"});
 }
 
-TEST_F(Usage, vulkanIsRefusedAndAutoTakesTheCpu) {
-    expectRefused({"info", "--backend", "vulkan"}, {"commands compute on the CPU alone so far"});
+TEST_F(Usage, commandsWithoutWorkForAGpuRefuseVulkanAndTakeTheCpuForAuto) {
+    expectRefused({"info", "--backend", "vulkan"}, {"info computes on the CPU alone"});
+    expectRefused(call("reference", {"--backend", "vulkan"}), {"reference computes on the CPU alone"});
     const CommandResult result = runCommand({"info", "--backend", "auto", "--json"});
     EXPECT_EQ(nlohmann::json::parse(result.out).at("backend"), "cpu");
 }

@@ -1,0 +1,139 @@
+#include "bindings/cli/first_bounce.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "bindings/cli/progress.h"
+#include "bindings/cli/scene_facts.h"
+
+namespace clv {
+namespace {
+
+constexpr std::size_t kFirstRound = 64 << 10;      // rays
+constexpr std::size_t kLargestRound = 512 << 10;   // rays
+constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
+constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
+
+}  // namespace
+
+void FirstBounce::addLevel(int resolution) {
+    for (LitLevel& level : levels_) level.weight = 0.0;
+    Level level = job_.makeLevel(resolution);
+    auto lookups = job_.makeLookups(level);
+    levels_.push_back(job_.makeLit(*lighting_, resolution, std::move(level), std::move(lookups)));
+}
+
+void FirstBounce::shoot(std::size_t count) {
+    std::vector<LightLevel*> levels;
+    for (const LitLevel& level : levels_) levels.push_back(level.light.get());
+    const std::size_t rays = lighting_->shoot(count, levels);
+    job_.report.rays += rays;
+    if (!job_.needs.feedback) return;
+    const SentPower sent = lighting_->sent();
+    const double share = double(rays) / double(job_.report.rays - pilots_);
+    sent_.flux += (sent.flux - sent_.flux) * share;
+    sent_.on += (sent.on - sent_.on) * share;
+}
+
+// A few rays show where the light goes; where much of it leaves the scene, the others are guided. False where the lights reach nothing.
+bool FirstBounce::pilot(std::uint64_t budget) {
+    lighting_->renderMaps(0);
+    std::vector<ClvRay> rays(std::size_t(std::min<std::uint64_t>(kMostPilots, budget / kPilotShare)));
+    guide_.emplace(job_.scene.bounds.lo, job_.scene.bounds.hi);
+    job_.clock.time("guide", [&] {
+        lighting_->pilots(clvHashCombine(job_.seed, 0x7u), rays);
+        guide_->learn(rays);
+        guide_->finish();
+    });
+    job_.report.rays += pilots_ = rays.size();
+    job_.report.shareThatMeets = guide_->share();
+    job_.report.guided = guide_->worthwhile();
+    if (job_.report.guided) job_.clock.time("setup", [&] { lighting_->guideBy(*guide_); });
+    return rays.empty() || std::ranges::any_of(rays, [](const ClvRay& ray) { return ray.maxDistance > 0.0f; });
+}
+
+void FirstBounce::run() {
+    const LightOptions& options = job_.options;
+    std::uint64_t budget = options.seconds > 0.0 ? ~std::uint64_t(0) : options.allBounces ? std::max<std::uint64_t>(options.rays / 2, 1) : options.rays;
+    LightingSettings settings = job_.lightingSettings(job_.needs.halves, budget, 1);
+    settings.firstShot = std::size_t(std::min<std::uint64_t>(budget, options.frames > 1 ? budget / options.frames : kFirstRound));
+    lighting_ = job_.makeLighting(settings);
+    Progress progress("light");
+    if (!pilot(options.seconds > 0.0 ? kFirstRound : budget)) return;
+    if (options.seconds <= 0.0) budget -= pilots_;
+    addLevel(job_.automatic ? kResolutions[0] : options.resolution);
+    if (job_.automatic) addLevel(kResolutions[1]);
+
+    // While levels are judged all of them are filled, so this ends with about the first quarter of the rays. A power of two: the
+    // halves of other stretches of the sequence fill each other's gaps, and what is meant to judge the bias shows less of it.
+    const std::uint64_t judged = job_.automatic ? std::bit_floor(std::max<std::uint64_t>(budget / 3, 1)) : 0;
+    std::size_t round = options.frames > 1 ? std::size_t((budget + options.frames - 1) / options.frames) : kFirstRound;
+    if (job_.automatic) round = std::size_t(std::min<std::uint64_t>(round, judged));
+    const double timeForThis = options.allBounces ? 0.5 * options.seconds : options.seconds;
+    std::uint64_t done = 0, sinceMaps = 0;
+    for (std::uint32_t pass = 0; done < budget; ++pass) {
+        const double before = progress.seconds();
+        if (pass == 0 || sinceMaps >= kFirstRound) {
+            lighting_->renderMaps(pass);
+            sinceMaps = 0;
+        }
+        const std::uint64_t earlier = job_.report.rays;
+        shoot(std::size_t(std::min<std::uint64_t>(round, budget - done)));
+        const std::uint64_t count = job_.report.rays - earlier;
+        done += count;
+        sinceMaps += count;
+        const double now = progress.seconds();
+        // With a budget of time, as many rays are still to come as the pace so far promises.
+        const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
+        if (levels_.size() > 1) judge(target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
+        if (options.seconds > 0.0 && now + (now - before) > timeForThis) break;
+        progress.update(options.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
+        if (options.frames <= 1) round = settled_ || !job_.automatic ? kLargestRound : std::min(2 * round, kLargestRound);
+    }
+    for (const LitLevel& level : levels_) {
+        job_.report.bytes += level.light->bytes(), job_.report.slots += level.light->level().slots.size();
+        if (level.weight > 0.0) job_.report.levels.emplace_back(level.resolution, level.weight);
+    }
+}
+
+// Foretells the errors once `targetRays` are in. Until the choice is `settled` a finer level joins while the finest one is the best;
+// then levels that err clearly more are dropped.
+void FirstBounce::judge(double targetRays, bool settled) {
+    LevelErrors errors;
+    std::vector<double> factor;
+    for (;;) {
+        job_.clock.time("choose", [&] {
+            estimates_.resize(levels_.size());
+            factor.clear();
+            for (std::size_t l = 0; l < levels_.size(); ++l) {
+                estimate(levels_[l], estimates_[l]);
+                // A level that joined late has missed the rays before it.
+                const double rays = levels_[l].light->rays(), missed = double(job_.report.rays - pilots_) - rays;
+                factor.push_back(std::max(1.0, (targetRays - missed) / rays));
+            }
+            errors = judgeLevels(estimates_).withRays(factor);
+        });
+        const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), levels_.back().resolution);
+        if (settled_ || bestLevel(errors) + 1 < errors.count || next == std::end(kResolutions)) break;
+        addLevel(*next);
+        lighting_->shootAgain(*levels_.back().light);
+    }
+    const LevelMix mix = chooseLevels(errors);
+    for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].weight = mix[l];
+    settled_ = settled_ || settled;
+    if (!settled_) return;
+    for (int l = errors.count; l-- > 0;) {
+        if (levels_[std::size_t(l)].weight == 0.0 && !staysInPlay(errors, l)) levels_.erase(levels_.begin() + l);
+    }
+}
+
+void FirstBounce::estimate(const LitLevel& level, HalfEstimates& estimates) const {
+    const auto halves = level.light->histories();
+    for (auto& half : estimates.half) half.resize(job_.judges.size());
+    forReceivers(job_.judges.size(), job_.parallelFor, [&](std::size_t i) {
+        const ClvCoefficients read = job_.layout.read(job_.judges[i].normal);
+        for (std::size_t half = 0; half < 2; ++half) estimates.half[half][i] = level.lookups->judges.irradiance(i, job_.layout, halves[half], read);
+    });
+}
+
+}  // namespace clv

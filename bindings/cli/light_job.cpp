@@ -1,0 +1,110 @@
+#include "bindings/cli/light_job.h"
+
+#include "bindings/cli/cpu_lighting.h"
+#include "bindings/cli/scene_facts.h"
+#include "bindings/cli/vulkan_lighting.h"
+#include "bindings/embree/visible_points.h"
+#include "clv/cpu/build_level.h"
+
+namespace clv {
+namespace {
+
+constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
+constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
+constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
+
+std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
+    std::vector<ClvReceiver> receivers;
+    receivers.reserve(points.size());
+    for (const ReferencePoint& p : points) receivers.push_back({p.position, 0.0f, p.normal, 0.0f});
+    return receivers;
+}
+
+void moveTo(Scene& scene, const glm::dvec3& anchor) {
+    const vec3 offset(scene.anchor - anchor);
+    for (vec3& p : scene.positions) p += offset;
+    scene.bounds.lo += offset, scene.bounds.hi += offset;
+    scene.anchor = anchor;
+}
+
+}  // namespace
+
+LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAll, const ParallelFor& parallel, std::span<const ReferencePoint> readers)
+    : scene(s), options(o), seed(seedOfAll), parallelFor(parallel), needs(planNeeds(sceneFacts(s, o))), automatic(needs.halves > 1),
+      layout{o.storage, needs.channels, needs.frame}, points(receiversOf(readers)) {
+    if (!worksAtAll()) return;
+    clock.time("setup", [&] {
+        embree_.emplace(scene);
+        if (!options.proxy.empty()) {
+            proxyScene_ = loadScene(options.proxy);
+            moveTo(*proxyScene_, scene.anchor);
+            proxy_.emplace(*proxyScene_);
+        }
+        if (needs.feedback) surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
+        if (automatic) chooseJudges();
+        const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
+        if (options.backend.choice == "vulkan") {
+            backend_ = std::make_unique<VulkanBackend>(options.backend, *embree_, target, seed, parallelFor, clock);
+        } else {
+            backend_ = std::make_unique<CpuBackend>(*embree_, target, seed, parallelFor, clock);
+        }
+    });
+    report.device = backend_->device();
+}
+
+// Some of the points, and with few of them some that the cameras see.
+void LightJob::chooseJudges() {
+    const std::size_t count = std::min(points.size(), kJudges);
+    for (std::size_t k = 0; k < count; ++k) judges.push_back(points[k * points.size() / count]);
+    if (count < kFewJudges) {
+        const auto seen = visiblePoints(*embree_, kFewJudges, clvHashCombine(seed, 0x9u));
+        judges.insert(judges.end(), seen.begin(), seen.end());
+    }
+}
+
+Level LightJob::makeLevel(int resolution) {
+    Level level;
+    clock.time("setup", [&] {
+        const ClvVolume volume = volumeOver(scene, resolution, options);
+        std::vector<std::uint8_t> needed = neededCells(volume, points);
+        for (const auto* more : {&judges, &surfaces.receivers}) {
+            const auto also = neededCells(volume, *more);
+            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= also[i];
+        }
+        level = buildLevel(volume, embree_->probe(), needed, parallelFor);
+    });
+    return level;
+}
+
+std::shared_ptr<const Lookups> LightJob::makeLookups(const Level& level) {
+    std::shared_ptr<const Lookups> lookups;
+    clock.time("setup", [&] {
+        const auto of = [&](const std::vector<ClvReceiver>& receivers) { return LookupTable(level, receivers, {}, parallelFor); };
+        lookups = std::make_shared<const Lookups>(Lookups{of(points), of(judges), of(surfaces.receivers)});
+    });
+    return lookups;
+}
+
+LitLevel LightJob::makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups) {
+    LitLevel lit{.resolution = resolution, .light = nullptr, .lookups = std::move(lookups)};
+    clock.time("setup", [&] { lit.light = lighting.makeLevel(std::move(level)); });
+    return lit;
+}
+
+LightingSettings LightJob::lightingSettings(int halves, std::uint64_t rays, std::uint32_t stream) const {
+    const int finest = automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution;
+    return {.layout = layout, .halves = halves, .rays = rays, .seed = clvHashCombine(seed, stream), .keepHits = needs.feedback,
+            .finest = volumeOver(scene, finest, options)};
+}
+
+std::unique_ptr<Lighting> LightJob::makeLighting(const LightingSettings& settings) {
+    std::unique_ptr<Lighting> lighting;
+    clock.time("setup", [&] { lighting = backend_->makeLighting(settings); });
+    return lighting;
+}
+
+void LightJob::evaluate(std::span<const LitLevel> levels, float scale, std::span<glm::vec3> sum) {
+    clock.time("evaluate", [&] { addIrradiance(levels, &Lookups::points, layout, points, scale, parallelFor, sum); });
+}
+
+}  // namespace clv

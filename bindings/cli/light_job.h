@@ -1,0 +1,51 @@
+// What the light pipeline works on: the scene, who reads its light, the back end, and what is said of it afterwards.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "bindings/cli/light_options.h"
+#include "bindings/cli/lit_level.h"
+#include "bindings/cli/pipeline.h"
+#include "bindings/cli/stage_clock.h"
+#include "bindings/embree/surface_samples.h"
+#include "clv/plan/needs.h"
+
+namespace clv {
+
+struct LightJob {
+    // All must outlive the job. Takes nothing where there is no light or nobody to read it.
+    LightJob(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor, std::span<const ReferencePoint> points);
+
+    bool worksAtAll() const { return needs.stages && !points.empty(); }
+
+    // About resolution^3 cells, with slots where receivers read.
+    Level makeLevel(int resolution);
+    std::shared_ptr<const Lookups> makeLookups(const Level& level);
+    LitLevel makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups);
+    // stream: each lighting has one of its own, from which the seed of its rays follows.
+    LightingSettings lightingSettings(int halves, std::uint64_t rays, std::uint32_t stream) const;
+    std::unique_ptr<Lighting> makeLighting(const LightingSettings& settings);
+    // E at the points, W/m^2, times `scale` is added to `sum`.
+    void evaluate(std::span<const LitLevel> levels, float scale, std::span<glm::vec3> sum);
+
+    const Scene& scene;
+    const LightOptions& options;
+    const std::uint32_t seed;
+    const ParallelFor& parallelFor;
+    const Needs needs;
+    const bool automatic;  // the resolution is chosen here
+    const DepositLayout layout;
+    std::vector<ClvReceiver> points, judges;
+    SurfaceSamples surfaces;  // that send the light of further bounces
+    StageClock clock;
+    PipelineReport report;
+
+private:
+    void chooseJudges();
+
+    std::optional<EmbreeScene> embree_, proxy_;
+    std::optional<Scene> proxyScene_;
+    std::unique_ptr<LightBackend> backend_;
+};
+
+}  // namespace clv

@@ -1,0 +1,84 @@
+// What the light pipeline asks of a back end: rays from lights or lit surfaces, cut where they hit, and their light in levels.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clv/cpu/level.h"
+#include "clv/cpu/ray_guide.h"
+#include "clv/data/rsm_texel.h"
+
+namespace clv {
+
+// A level with its light, in the memory of the back end.
+class LightLevel {
+public:
+    virtual ~LightLevel() = default;
+    virtual const Level& level() const = 0;
+    // Rays merged so far.
+    virtual double rays() const = 0;
+    // Of its volume and tables.
+    virtual std::size_t bytes() const = 0;
+    // Mean deposits of each half, one record a slot: W m for the whole flux of the lights. Valid until more rays come.
+    virtual std::vector<std::span<const float>> histories() = 0;
+    // Forgets all light.
+    virtual void reset() = 0;
+};
+
+// Power of the rays of a shot, and what of it the surfaces that they hit send on; W a channel.
+struct SentPower {
+    glm::dvec3 flux{0.0}, on{0.0};
+};
+
+// Rays from one source. All back ends draw the same ones for the same seed.
+class Lighting {
+public:
+    virtual ~Lighting() = default;
+
+    // The maps of the scene's lights, at one of their well-spread samples: where the rays of the next shots come from.
+    virtual void renderMaps(std::uint32_t pass) = 0;
+    // Surfaces that send light, in place of maps; as many as the settings say.
+    virtual void emit(std::span<const ClvRsmTexel> emitters) = 0;
+
+    // Fills `rays` with the first ones of a sequence of their own, cut where they hit.
+    virtual void pilots(std::uint32_t seed, std::span<ClvRay> rays) = 0;
+    // Later rays go where this guide sends them, once maps are rendered. Call it before any level is made.
+    virtual void guideBy(const RayGuide& guide) = 0;
+
+    // A level without light. It must not outlive the lighting.
+    virtual std::unique_ptr<LightLevel> makeLevel(Level level) = 0;
+
+    // Draws `count` rays, rounded up so that each part of a half has as many, and adds their light to the levels. Returns how many.
+    virtual std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) = 0;
+    // The rays of the last shot for one more level, which has joined since.
+    virtual void shootAgain(LightLevel& level) = 0;
+    // Of the last shot; for settings that keep hits.
+    virtual SentPower sent() const = 0;
+};
+
+struct LightingSettings {
+    DepositLayout layout;
+    int halves = 1;
+    std::uint64_t rays = 0;       // that are to come, about: volumes are cut into parts accordingly
+    std::size_t firstShot = 0;    // rays; their memory is taken ahead
+    std::uint32_t seed = 1;
+    std::size_t emitters = 0;     // surfaces that send light, rows of kEmitterWidth; 0: the scene's lights do
+    bool keepHits = false;        // so that sent() knows what the rays met
+    ClvVolume finest{};           // of the levels that may be made
+};
+
+constexpr int kEmitterWidth = 256;
+
+class LightBackend {
+public:
+    virtual ~LightBackend() = default;
+    // "cpu" or "vulkan".
+    virtual std::string name() const = 0;
+    // Of the device; empty where the processor computes.
+    virtual std::string device() const = 0;
+    virtual std::unique_ptr<Lighting> makeLighting(const LightingSettings& settings) = 0;
+};
+
+}  // namespace clv

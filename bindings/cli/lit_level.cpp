@@ -1,0 +1,24 @@
+#include "bindings/cli/lit_level.h"
+
+namespace clv {
+
+void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
+                   float scale, const ParallelFor& parallelFor, std::span<glm::vec3> sum) {
+    struct Part {
+        const LookupTable& table;
+        std::span<const float> history;
+        float weight;
+    };
+    std::vector<Part> parts;
+    for (const LitLevel& level : levels) {
+        if (level.weight == 0.0) continue;
+        const auto halves = level.light->histories();
+        for (const auto& history : halves) parts.push_back({level.lookups.get()->*which, history, scale * float(level.weight) / float(halves.size())});
+    }
+    forReceivers(receivers.size(), parallelFor, [&](std::size_t i) {
+        const ClvCoefficients read = layout.read(receivers[i].normal);
+        for (const Part& part : parts) sum[i] += part.table.irradiance(i, layout, part.history, read) * part.weight;
+    });
+}
+
+}  // namespace clv
