@@ -55,7 +55,7 @@ TEST_F(Scenes, anUnknownNameOrKindOfFileIsRefused) {
 TEST_F(Scenes, infoSaysWhatThereIs) {
     const json report = json::parse(runCommand({"info", "--json", "--threads", "3"}).out);
     EXPECT_EQ(report.at("threads"), 3);
-    EXPECT_EQ(report.at("backends"), json::array({"cpu"}));
+    EXPECT_EQ(report.at("backends")[0], "cpu");
     EXPECT_GE(report.at("hardware_threads"), 1);
     EXPECT_TRUE(report.at("cpu_features").is_array());
 }
