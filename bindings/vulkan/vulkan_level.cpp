@@ -34,11 +34,13 @@ ClvLevelFrame levelConstants(const Level& level, const BrickSlots& bricks, const
 
 void uploadLevel(VulkanFrame& frame, const LightFrameSettings& settings, std::size_t index, const Level& level, const BrickSlots& bricks) {
     const std::string name = nameOf(index);
-    if (settings.inject == InjectWay::slices) return frame.upload("slots" + name, std::span(level.slots));
-    frame.upload("table" + name, std::span(level.table));
-    frame.upload("splits" + name, std::span(level.splits));
+    const bool slices = settings.inject == InjectWay::slices, pictured = index == 0 && settings.picture.x > 0;
+    if (!slices || pictured) {
+        frame.upload("table" + name, std::span(level.table));
+        frame.upload("splits" + name, std::span(level.splits));
+    }
+    if (slices || pictured || gathers(settings.inject)) frame.upload("slots" + name, std::span(level.slots));
     if (!gathers(settings.inject)) return;
-    frame.upload("slots" + name, std::span(level.slots));
     frame.upload("brick slots" + name, std::span(bricks.slots));
     frame.upload("brick mask" + name, std::span(bricks.mask));
 }

@@ -44,7 +44,13 @@ std::string readersOf(const std::string& header) {
         return including("clv/data/light_volume.h") + "#ifndef SPLIT_READER\n#define SPLIT_READER\nClvSplit clvReadSplit(uint i) {\n"
                "ClvSplit split; split.plane = vec4(1.0, 0.0, 0.0, 0.5); split.front = i; split.back = i; split.firstSlot = i; split.slotCount = 1u; return split; }\n#endif\n";
     }
-    if (header == "clv/stages/read_record.h") return "vec4 clvReadHistory(uint row) { return vec4(0.5, 0.5, 0.5, 0.5); }\n";
+    const std::string history = "#ifndef HISTORY_READER\n#define HISTORY_READER\nvec4 clvReadHistory(uint row) { return vec4(0.5, 0.5, 0.5, 0.5); }\n#endif\n";
+    if (header == "clv/stages/read_record.h") return history;
+    if (header == "clv/stages/lookup.h" || header == "clv/stages/deferred.h") {
+        return readersOf("clv/stages/find_slot.h") + history + "#ifndef SLOT_READER\n#define SLOT_READER\nuint clvReadTable(uint cell) { return cell; }\n"
+               "ClvSlot clvReadSlot(uint i) { ClvSlot slot; slot.openCentroid = vec3(0.0, 0.0, 0.0); slot.openVolume = 1.0; slot.visible = uvec4(i, i, i, i); slot.cell = i;\n"
+               "slot.pad0 = i; slot.pad1 = i; slot.pad2 = i; return slot; }\n#endif\n";
+    }
     return "";
 }
 

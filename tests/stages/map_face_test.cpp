@@ -68,7 +68,7 @@ TEST(MapFaces, holdEveryRayOfALightAtTheTexelWhereItsPointsAreDrawn) {
 TEST(MapFaces, moveRaysToTheMiddleOfATexel) {
     const std::vector<ClvLight> lights = allLights();
     for (const ClvMapFace& face : mapFaces(lights, kLo, kHi, kSide)) {
-        const ClvRay ray = clvFaceRay(face, clvLightRay(lights[face.light], vec2(0.5f), kLo, kHi), uvec2(3, 60), kSide);
+        const ClvRay ray = clvFaceRay(face, clvLightRay(lights[face.light], vec2(0.5f), kLo, kHi), uvec2(3, 60), uvec2(kSide));
         const vec2 place = clvFaceTexel(face, ray, kSide);
         EXPECT_NEAR(place.x, 3.5f, 1e-3f);
         EXPECT_NEAR(place.y, 60.5f, 1e-3f);

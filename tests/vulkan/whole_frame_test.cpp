@@ -85,6 +85,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     vary([](LightFrameSettings& s, std::uint64_t rows) { s.guideCells = s.guideRows = rows; }, 0, 9);
     vary([](LightFrameSettings& s, std::uint32_t rule) { s.rule = rule; }, kClvInjectTrackLength, kClvInjectThesis);
     vary([](LightFrameSettings& s, InjectWay way) { s.inject = way; }, InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint, InjectWay::slices);
+    vary([](LightFrameSettings& s, std::uint32_t pixels) { s.picture = uvec2(s.lights > 0 ? pixels : 0); }, 0, 16);
     vary([](LightFrameSettings& s, bool moving) { s.movingLights = moving; }, false, true);
     vary([](LightFrameSettings& s, const std::vector<LightFrameLevel>& levels) { s.levels = levels; },
          std::vector{levelOf({8, 8, 8, 8, 8})}, std::vector{levelOf({2, 3, 4, 5, 6}), levelOf({0, 0, 8, 8, 8})});

@@ -78,6 +78,10 @@
 #define CLV_BIND_KEPT_DYNAMICITY 45  // float[halves * slotCount * 6]: that of the history
 #define CLV_BIND_SLOT_FRAMES 46    // float[halves * slotCount]: frames, weighed alike, that a slot's history stands for
 
+// Pictures; what the camera sees is drawn as a face of a map is.
+#define CLV_BIND_PICTURE 47        // ClvPicture
+#define CLV_BIND_RADIANCE 48       // vec4[width * height], row by row from the top: W/(m^2 sr), and 1 where a surface is seen
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

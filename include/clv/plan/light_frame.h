@@ -12,6 +12,7 @@
 #include "../data/frame.h"
 #include "../data/hit.h"
 #include "../data/light.h"
+#include "../data/picture.h"
 #include "../data/ray.h"
 #include "../data/rsm_texel.h"
 #include "../data/surface.h"
@@ -54,6 +55,7 @@ struct LightFrameSettings {
     std::uint64_t rays = 0;            // a frame
     std::uint64_t receivers = 0;       // 0: no evaluate step
     std::uint32_t halves = 1, storage = kClvStorageCube9, channels = 3;
+    uvec2 picture{0};                  // pixels; not 0: a picture step, which needs lights
     bool turned = false;               // cells keep directions along ClvFrame's axes, not along those of the grid
     std::uint32_t rule = kClvInjectTrackLength;
     std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
@@ -150,6 +152,7 @@ public:
                      {uniform(frame), uniform(r.level), read(receivers), read(ends), read(slots), read(weights), texel(r.history), write(irradiance)}, recordConstants());
             }
         }
+        if (s_.picture.x > 0) addPicture(frame, reads.front().level, reads.front().history);
         addBarriers(frame_);
         return std::move(frame_);
     }
@@ -232,6 +235,26 @@ private:
         const auto depths = addImage("face depths", CLV_BIND_FACE_DEPTHS, {FrameFormat::depth32Float, FrameShape::flat, uvec3(s_.faceSide, s_.faceSide, 1)});
         draw("map faces", "map_faces", {FrameTopology::triangles, std::uint32_t(3 * s_.triangles)}, {uniform(frame), read(faces), texel(triangles), target(seen), target(depths)});
         pass("rsm", "rsm_from_faces" + textured, groups, with({uniform(frame), read(lights), read(faces), image(seen), write(texels), texel(triangles)}, surfaces));
+    }
+
+    // A picture of the first level's light.
+    void addPicture(std::uint32_t frame, std::uint32_t constants, std::uint32_t history) {
+        const auto camera = add("camera", CLV_BIND_MAP_FACES, sizeof(ClvMapFace), FrameSource::host);
+        const auto picture = add("picture", CLV_BIND_PICTURE, sizeof(ClvPicture), FrameSource::host);
+        const auto radiance = add("radiance", CLV_BIND_RADIANCE, std::uint64_t(s_.picture.x) * s_.picture.y * sizeof(vec4), FrameSource::passes, true);
+        const auto seen = addImage("pixel triangles", CLV_BIND_FACE_TRIANGLES, {FrameFormat::r32Uint, FrameShape::flat, uvec3(s_.picture, 1)});
+        const auto depths = addImage("pixel depths", CLV_BIND_FACE_DEPTHS, {FrameFormat::depth32Float, FrameShape::flat, uvec3(s_.picture, 1)});
+        const auto named = [&](const char* name) { return frame_.bufferIndex(name); };
+        const LightFrameLevel& level = s_.levels.front();
+        // Ways to inject differ in what they need of a level.
+        if (named("table 0") == frame_.buffers.size()) addTables(level, " 0");
+        if (named("slots 0") == frame_.buffers.size()) add("slots 0", CLV_BIND_SLOTS, level.slots * sizeof(ClvSlot), FrameSource::host);
+        begin("picture");
+        draw("camera", "map_faces", {FrameTopology::triangles, std::uint32_t(3 * s_.triangles)}, {uniform(frame), read(camera), texel(named("triangles")), target(seen), target(depths)});
+        Uses uses{uniform(frame), uniform(constants), uniform(picture), read(camera), read(named("table 0")), read(named("splits 0")), read(named("slots 0")), texel(history), image(seen), write(radiance),
+                  texel(named("triangles")), texel(named("surfaces"))};
+        if (s_.textureTexels > 0) uses = with(uses, {texel(named("texture rows"), FrameFormat::rgba32Uint), texel(named("texture texels"))});
+        pass("deferred", s_.textureTexels > 0 ? "deferred_textured" : "deferred", groupsFor(std::uint64_t(s_.picture.x) * s_.picture.y), std::move(uses), recordConstants());
     }
 
     // Each ray adds to the sums of this frame, which are then merged and cleared.

@@ -63,5 +63,15 @@ inline std::vector<ClvMapFace> mapFaces(std::span<const ClvLight> lights, const 
     return faces;
 }
 
+// What a camera sees of a picture. forward, up: unit length, orthogonal; yfov: rad, the whole vertical angle; aspect: width / height;
+// nearest: m, > 0.
+inline ClvMapFace cameraFace(const vec3& position, const vec3& forward, const vec3& up, float yfov, float aspect, float nearest) {
+    const float tangent = std::tan(0.5f * yfov);
+    ClvMapFace face{};
+    face.origin = position, face.forward = forward, face.depthScale = nearest;
+    face.right = cross(forward, up) / (tangent * aspect), face.up = up / tangent;
+    return face;
+}
+
 }  // namespace clv
 #endif

@@ -42,10 +42,10 @@ CLV_FN vec2 clvFaceTexel(ClvMapFace face, ClvRay ray, uint side) {
     return vec2(0.5f + 0.5f * x / along, 0.5f - 0.5f * y / along) * float(side);
 }
 
-// `ray`, moved to the middle of the texel (column, row).
-CLV_FN ClvRay clvFaceRay(ClvMapFace face, ClvRay ray, uvec2 texel, uint side) {
-    float x = (2.0f * float(texel.x) + 1.0f) / float(side) - 1.0f;
-    float y = 1.0f - (2.0f * float(texel.y) + 1.0f) / float(side);
+// `ray`, moved to the middle of the texel (column, row) of a picture of `size` texels.
+CLV_FN ClvRay clvFaceRay(ClvMapFace face, ClvRay ray, uvec2 texel, uvec2 size) {
+    float x = (2.0f * float(texel.x) + 1.0f) / float(size.x) - 1.0f;
+    float y = 1.0f - (2.0f * float(texel.y) + 1.0f) / float(size.y);
     // Right and up are shorter or longer than 1: a coordinate of 1 is 1 / length away.
     vec3 across = face.right * (x / dot(face.right, face.right)) + face.up * (y / dot(face.up, face.up));
     if (face.parallel == 1u) {

@@ -29,7 +29,7 @@ CLV_READER_FN ClvFaceHit clvMeetInFace(CLV_READER ClvMapFace face, uint layer, u
     }
     uint ownSeen = CLV_READ clvReadFaceTriangle(own, layer);
     if (hit.met.primitive != kClvNoPrimitive || ownSeen == 0u) return hit;
-    hit.ray = clvFaceRay(face, ray, own, side);
+    hit.ray = clvFaceRay(face, ray, own, uvec2(side, side));
     hit.met = clvMeetTriangle(CLV_PASS_READER ownSeen - 1u, hit.ray.origin, hit.ray.direction, hit.met);
     return hit;
 }
