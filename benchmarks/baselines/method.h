@@ -1,0 +1,53 @@
+// What a report asks of a method of indirect light: set it up, add frames of rays, read irradiance; the caller times each step.
+//
+// All methods answer the same question: indirect irradiance after one bounce (light -> surface -> receiver), W/m^2, without any
+// ambient term, in a scene that stands still. They trace the same Embree scene on the same threads.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/embree/embree_scene.h"
+#include "bindings/embree/path_tracer.h"
+#include "clv/cpu/parallel.h"
+
+namespace clv {
+
+// What methods work on; both must outlive them.
+struct MethodWorld {
+    const EmbreeScene& scene;
+    const ParallelFor& parallelFor;
+};
+
+// Name and value of all that sets two runs of a method apart, in a fixed order: columns of a table.
+using MethodSettings = std::vector<std::pair<std::string, std::string>>;
+
+class Method {
+public:
+    virtual ~Method() = default;
+
+    virtual std::string name() const = 0;
+    virtual MethodSettings settings() const = 0;
+
+    // Set-up: whatever a still scene and still readers need once. `receivers` are the points that irradiance() answers for; they are
+    // copied. Called once; restart(1) is implied.
+    virtual void prepare(const MethodWorld& world, std::span<const ReferencePoint> receivers) = 0;
+    // Forgets all light. What comes is drawn from this seed: the same calls after it give the same results, on any number of threads.
+    virtual void restart(std::uint32_t seed) = 0;
+
+    // Light that the lamps throw on surfaces, as reflective shadow maps: once before each frame. Nothing for methods without maps.
+    virtual void renderMaps() {}
+    // One frame: about `rays` rays, > 0, merged with the frames since restart(). Where a method's least frame takes more, it takes more.
+    virtual void frame(std::size_t rays) = 0;
+    // W/m^2, a receiver each, from the frames since restart(); 0 before the first.
+    virtual void irradiance(std::span<glm::vec3> out) = 0;
+
+    // Held for the light and for finding it, the scene's acceleration structure, receivers and maps apart.
+    virtual std::size_t bytes() const = 0;
+    // Rays traced by the frames since restart(), shadow rays among them, those of maps not.
+    virtual std::uint64_t raysTraced() const = 0;
+};
+
+}  // namespace clv
