@@ -1,6 +1,5 @@
 #include "benchmarks/measured_scene.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "bindings/embree/path_tracer.h"
@@ -27,11 +26,6 @@ MeasuredScene measureScene(Scene scene, std::size_t points, std::uint64_t sample
 
 std::array<double, 3> cellShift(int k) {
     return {std::fmod(0.13 + 0.618034 * k, 1.0), std::fmod(0.57 + 0.414214 * k, 1.0), std::fmod(0.31 + 0.732051 * k, 1.0)};
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
 MeasuredLight measureLight(const MeasuredScene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor) {

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
+#include "benchmarks/report/statistics.h"
 #include "bindings/cli/pipeline.h"
 
 namespace clv {
@@ -21,8 +22,6 @@ MeasuredScene measureScene(Scene scene, std::size_t points, std::uint64_t sample
 
 // Shift `k` of the grid, in cells: no two alike, none a simple fraction.
 std::array<double, 3> cellShift(int k);
-
-double median(std::vector<double> values);
 
 // What lightPoints gives at the points, how far it is from the truth, and how it came about.
 struct MeasuredLight {

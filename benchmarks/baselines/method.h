@@ -44,6 +44,9 @@ public:
     // W/m^2, a receiver each, from the frames since restart(); 0 before the first.
     virtual void irradiance(std::span<glm::vec3> out) = 0;
 
+    // Whether a frame's rays serve every receiver. Where they do not, each receiver sends rays of its own, and a frame costs what its
+    // receivers cost.
+    virtual bool sharesRays() const { return true; }
     // Held for the light and for finding it, the scene's acceleration structure, receivers and maps apart.
     virtual std::size_t bytes() const = 0;
     // Rays traced by the frames since restart(), shadow rays among them, those of maps not.

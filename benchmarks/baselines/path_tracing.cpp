@@ -44,6 +44,7 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = sum_[i] * scale;
     }
 
+    bool sharesRays() const override { return false; }
     std::size_t bytes() const override { return sum_.size() * sizeof(glm::vec3); }
     std::uint64_t raysTraced() const override { return traced_; }
 

@@ -35,6 +35,7 @@ int runCommandLine(int argc, const char* const* argv) {
     addReferenceCommand(app);
     addRenderCommand(app);
     addPlanCommand(app);
+    addReportCommand(app);
     addScenesCommand(app);
     addInfoCommand(app);
     try {

@@ -14,6 +14,7 @@ void addIrradianceCommand(CLI::App& app);
 void addPlanCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
+void addReportCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);
 
 }  // namespace clv

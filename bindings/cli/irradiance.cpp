@@ -1,9 +1,9 @@
 // clv irradiance: indirect irradiance at given points, read from a light volume.
 #include <memory>
 
+#include "benchmarks/report/metrics.h"
 #include "bindings/cli/command_line.h"
 #include "bindings/cli/light_options.h"
-#include "bindings/cli/metrics.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/point_table.h"

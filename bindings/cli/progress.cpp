@@ -12,6 +12,8 @@ namespace clv {
 namespace {
 
 constexpr std::chrono::milliseconds kQuietTime(1000), kRedrawTime(100);
+// From here on the pace so far foretells the rest, s.
+constexpr double kPaceTime = 10.0;
 constexpr int kBarWidth = 30;
 // Back to the first column, and erase from there to the line's end.
 constexpr const char* kWipe = "\r\x1b[K";
@@ -29,6 +31,12 @@ double Progress::seconds() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
+std::string timeLeftText(double seconds, double share) {
+    if (seconds < kPaceTime || share <= 0.0) return "";
+    const long left = std::lround(seconds * (1.0 - share) / share);
+    return fmt::format(", {}:{:02} left", left / 60, left % 60);
+}
+
 void Progress::update(double share) {
     if (!terminal_) return;
     // Whoever finds another thread drawing has nothing to add.
@@ -36,7 +44,7 @@ void Progress::update(double share) {
     if (!lock || Clock::now() < nextDraw_) return;
     share = std::clamp(share, 0.0, 1.0);
     const int filled = int(std::lround(share * kBarWidth));
-    fmt::print(stderr, "{}{} [{:=<{}}{:<{}}] {:3.0f} %", kWipe, label_, "", filled, "", kBarWidth - filled, 100.0 * share);
+    fmt::print(stderr, "{}{} [{:=<{}}{:<{}}] {:3.0f} %{}", kWipe, label_, "", filled, "", kBarWidth - filled, 100.0 * share, timeLeftText(seconds(), share));
     std::fflush(stderr);
     drawn_ = true;
     nextDraw_ = Clock::now() + kRedrawTime;

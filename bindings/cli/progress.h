@@ -9,6 +9,9 @@
 
 namespace clv {
 
+// ", 2:05 left": minutes and seconds at the pace so far; nothing while that says little.
+std::string timeLeftText(double seconds, double share);
+
 // Shows nothing unless stderr is a terminal and a second has gone by; wipes itself off at the end.
 class Progress {
 public:

@@ -1,8 +1,8 @@
 // clv reference: the path-traced truth at given points.
 #include <memory>
 
+#include "benchmarks/report/metrics.h"
 #include "bindings/cli/command_line.h"
-#include "bindings/cli/metrics.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/point_table.h"
 #include "bindings/cli/progress.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/progress.h"
 #include "clv/math/hash.h"

@@ -7,10 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "benchmarks/report/metrics.h"
+#include "benchmarks/report/picture.h"
 #include "bindings/cli/camera_view.h"
 #include "bindings/cli/command_line.h"
 #include "bindings/cli/light_options.h"
-#include "bindings/cli/metrics.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/progress.h"
@@ -102,14 +103,6 @@ std::vector<Value> measuredOf(const std::vector<Value>& values) {
     std::vector<Value> picked;
     for (std::size_t i = 0; i < count; ++i) picked.push_back(values[i * values.size() / count]);
     return picked;
-}
-
-// Makes the folder where it is missing. Throws InputError.
-std::filesystem::path outputFolder(const std::string& name) {
-    std::error_code error;
-    std::filesystem::create_directory(name, error);
-    if (!std::filesystem::is_directory(name)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", name));
-    return name;
 }
 
 struct RenderCommand {

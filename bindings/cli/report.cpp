@@ -1,73 +1,72 @@
-#include <cstdio>
-#include <stdexcept>
-#include <string>
-#include <vector>
+// clv report: error against run time, of this library and of the methods that it competes with, measured on this machine.
+#include <filesystem>
+#include <fstream>
+#include <memory>
 
 #include <fmt/format.h>
 
+#include "benchmarks/report/provenance.h"
+#include "benchmarks/report/report_plans.h"
+#include "bindings/cli/command_line.h"
 #include "bindings/cli/options.h"
+#include "bindings/cli/progress.h"
+#include "bindings/cli/staged_output.h"
 
 namespace clv {
 namespace {
 
-std::string scalarText(const Report& value) {
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-    return value.is_string() ? value.get<std::string>() : value.dump();
+void writeText(const std::string& file, const std::string& text) {
+    std::ofstream output(file, std::ios::binary);
+    output << text << std::flush;
+    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", file));
 }
 
-bool isTable(const Report& value) {
-    return value.is_array() && !value.empty() && value.front().is_object();
-}
+struct ReportCommand {
+    CommonOptions common;
+    std::string out;
+    std::vector<std::string> scenes;  // in place of those of the plan, or empty
+    bool full = false;
 
-std::string cellText(const Report& value) {
-    if (!value.is_array()) return scalarText(value);
-    std::string text;
-    for (const Report& element : value) text += (text.empty() ? "" : ", ") + scalarText(element);
-    return text;
-}
+    void run(const CLI::App& command) const {
+        Report report = startReport(command, common);
+        const std::filesystem::path folder = outputFolder(out);
+        StagedOutput output(folder);
+        ReportPlan plan = full ? fullPlan() : quickPlan();
+        if (!scenes.empty()) plan.scenes = scenes;
+        plan.seed = common.seed;
+        plan.program = fmt::format("{} on {} threads", programChecksum(), threadCount(common));
 
-// Objects of the same keys, a line each, under a line of keys.
-std::string tableText(const Report& rows, const std::string& indent) {
-    std::vector<std::string> keys;
-    std::vector<std::size_t> widths;
-    for (const auto& [key, value] : rows.front().items()) {
-        keys.push_back(key);
-        widths.push_back(key.size());
-        for (const Report& row : rows) widths.back() = std::max(widths.back(), cellText(row.at(key)).size());
+        Progress progress("report");
+        const std::vector<Measurement> all = measureAll(plan, folder, parallelForOf(common), [&](double share) { progress.update(share); });
+        report.update(provenance());
+        report["size"] = full ? "full" : "quick";
+        Report file = report;
+        file["measurements"] = Report::array();
+        for (const Measurement& m : all) file["measurements"].push_back(toJson(m));
+        writeText(output.path("report.csv"), csvOf(all));
+        writeText(output.path("report.json"), file.dump(2, ' ', false, Report::error_handler_t::replace) + "\n");
+        output.commit();
+
+        report["scenes"] = plan.scenes;
+        report["measurements"] = all.size();
+        report["seconds"] = progress.seconds();
+        report["out"] = out;
+        report["files"] = {"report.csv", "report.json"};
+        printReport(report, common);
     }
-    std::string text;
-    const auto addLine = [&](auto&& cell) {
-        std::string line;
-        for (std::size_t i = 0; i < keys.size(); ++i) line += fmt::format("{:<{}}  ", cell(keys[i]), widths[i]);
-        text += indent + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    };
-    addLine([](const std::string& key) { return key; });
-    for (const Report& row : rows) addLine([&](const std::string& key) { return cellText(row.at(key)); });
-    return text;
-}
-
-std::string linesText(const Report& report, const std::string& indent) {
-    std::size_t width = 0;
-    for (const auto& [key, value] : report.items()) width = std::max(width, key.size());
-    std::string text;
-    for (const auto& [key, value] : report.items()) {
-        if (value.is_object())
-            text += indent + key + "\n" + linesText(value, indent + "  ");
-        else if (isTable(value))
-            text += indent + key + "\n" + tableText(value, indent + "  ");
-        else
-            text += fmt::format("{}{:<{}}  {}\n", indent, key, width, cellText(value));
-    }
-    return text;
-}
+};
 
 }  // namespace
 
-void printReport(const Report& report, const CommonOptions& options) {
-    // Names in scene files need not be UTF-8, which JSON must be.
-    const std::string text = options.json ? report.dump(2, ' ', false, Report::error_handler_t::replace) + "\n" : linesText(report, "");
-    std::fputs(text.c_str(), stdout);
-    if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written");
+void addReportCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("report", "Measure error against run time, of this library and of other methods");
+    auto options = std::make_shared<ReportCommand>();
+    command->add_option("--out", options->out, "Folder for the report; made where it is missing. What an earlier run of this program measured there is kept")->required();
+    auto* quick = command->add_flag("--quick")->description("A few minutes (the default)");
+    command->add_flag("--full", options->full, "Within an hour: more scenes, settings, points and repeats")->excludes(quick);
+    command->add_option("--scenes", options->scenes, "Scenes in place of the report's own: files, or names of built-in ones");
+    addCommonOptions(*command, options->common);
+    command->callback([options, command] { options->run(*command); });
 }
 
 }  // namespace clv

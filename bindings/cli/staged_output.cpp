@@ -19,6 +19,13 @@ fs::path folderOf(const fs::path& file) {
 
 }  // namespace
 
+fs::path outputFolder(const std::string& name) {
+    std::error_code error;
+    fs::create_directory(name, error);
+    if (!fs::is_directory(name)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", name));
+    return name;
+}
+
 StagedOutput::StagedOutput(const fs::path& folder) : folder_(folder) {
     hidden_ = guardFolder([&] {
         std::string pattern = (folder / ".clv-XXXXXX").string();

@@ -6,6 +6,9 @@
 
 namespace clv {
 
+// Makes the folder where it is missing. Throws InputError.
+std::filesystem::path outputFolder(const std::string& name);
+
 // Files are written into a hidden folder inside the one where they belong, and renamed at the end. The hidden folder goes with
 // the object, and on an interrupt.
 class StagedOutput {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vulkan/vulkan_core.h>
 
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/embree/task_pool.h"
 #include "bindings/embree/visible_points.h"

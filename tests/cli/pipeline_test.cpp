@@ -1,7 +1,7 @@
 // Light through the volume against what is known: closed forms, path-traced truth, and what the plan promises to leave out.
 #include <gtest/gtest.h>
 
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/reference_run.h"
 #include "bindings/cli/scene_facts.h"

@@ -40,7 +40,7 @@ protected:
 };
 
 TEST_F(Usage, helpAndVersionAreAnsweredOnStdout) {
-    for (const Arguments& arguments : {Arguments{"--help"}, {"irradiance", "--help"}, {"reference", "--help"}, {"render", "--help"}, {"plan", "--help"}, {"scenes", "--help"}, {"info", "--help"}}) {
+    for (const Arguments& arguments : {Arguments{"--help"}, {"irradiance", "--help"}, {"reference", "--help"}, {"render", "--help"}, {"plan", "--help"}, {"report", "--help"}, {"scenes", "--help"}, {"info", "--help"}}) {
         const CommandResult result = runCommand(arguments);
         EXPECT_EQ(result.status, 0);
         EXPECT_EQ(result.err, "");

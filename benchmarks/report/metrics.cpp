@@ -1,4 +1,4 @@
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
 
 #include <algorithm>
 #include <cmath>

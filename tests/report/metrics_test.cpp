@@ -1,5 +1,5 @@
 // Errors of hand-computed data.
-#include "bindings/cli/metrics.h"
+#include "benchmarks/report/metrics.h"
 
 #include <cmath>
 

@@ -1,0 +1,23 @@
+// Figures of repeated measurements.
+#pragma once
+#include <vector>
+
+namespace clv {
+
+// 0 for no values; the upper of the two in the middle.
+double median(std::vector<double> values);
+
+// Distance between the quarters: what the middle half of the values spans.
+double middleHalf(std::vector<double> values);
+
+// Value that a Student-distributed variable exceeds in magnitude with the probability 1 - confidence; infinite without a degree of freedom.
+double studentQuantile(double confidence, int degreesOfFreedom);
+
+// A root mean square of independent values, and the half width of the interval that holds the true one with 95 % confidence;
+// infinite for a single value.
+struct RootMeanSquare {
+    double value = 0.0, interval = 0.0;
+};
+RootMeanSquare rootMeanSquare(const std::vector<double>& values);
+
+}  // namespace clv

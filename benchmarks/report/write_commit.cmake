@@ -1,0 +1,10 @@
+# Writes the header OUTPUT with the commit of SOURCE; called at every build, it touches the header only where the commit changed.
+set(commit "unknown")
+find_program(git git)
+if(git)
+    execute_process(COMMAND ${git} -C ${SOURCE} describe --always --dirty --abbrev=12 OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    if(found)
+        set(commit ${found})
+    endif()
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/commit.h.in ${OUTPUT} @ONLY)
