@@ -2,8 +2,11 @@
 #ifndef CLV_TESTS_BASELINES_METHOD_RUN_H
 #define CLV_TESTS_BASELINES_METHOD_RUN_H
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 #include "benchmarks/baselines/method.h"
 #include "bindings/embree/task_pool.h"
@@ -49,6 +52,27 @@ inline std::vector<glm::vec3> lightAfter(Method& method, const MeasuredRoom& roo
         method.frame(rays);
     }
     return irradianceOf(method, room.points.size());
+}
+
+// The same seed gives the same light, after a restart and on any number of threads; another seed gives other light.
+template <class Make>
+void expectLightFollowsFromTheSeed(const Make& make, std::size_t rays) {
+    const MeasuredRoom room("two_rooms", 70, 1);
+    const ParallelFor serial = serialFor();
+    const std::unique_ptr<Method> parallel = make(), alone = make();
+    parallel->prepare(room.world(), room.points);
+    alone->prepare({room.embree, serial}, room.points);
+    const auto light = lightAfter(*parallel, room, 5, 2, rays);
+    EXPECT_EQ(light, lightAfter(*alone, room, 5, 2, rays));
+    EXPECT_NE(light, lightAfter(*parallel, room, 6, 2, rays));
+    EXPECT_EQ(light, lightAfter(*parallel, room, 5, 2, rays));
+}
+
+// Nothing is read before the first frame, and nothing is counted.
+inline void expectNothingAfterRestart(Method& method, const MeasuredRoom& room) {
+    method.restart(2);
+    EXPECT_EQ(method.raysTraced(), 0u);
+    for (const glm::vec3& e : irradianceOf(method, room.points.size())) EXPECT_EQ(e, glm::vec3(0.0f));
 }
 
 // Over points and channels, relative to the mean of the truth.

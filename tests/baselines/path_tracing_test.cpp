@@ -67,21 +67,11 @@ TEST(PathTracing, countsShadowRaysToo) {
     method->prepare(room.world(), room.points);
     lightAfter(*method, room, 1, 3, 10 * room.points.size());
     EXPECT_EQ(method->raysTraced(), 2u * 3u * 10u * room.points.size());
-    method->restart(2);
-    EXPECT_EQ(method->raysTraced(), 0u);
-    for (const glm::vec3& e : irradianceOf(*method, room.points.size())) EXPECT_EQ(e, glm::vec3(0.0f));
+    expectNothingAfterRestart(*method, room);
 }
 
-TEST(PathTracing, resultsFollowFromTheSeedOnAnyNumberOfThreads) {
-    const MeasuredRoom room("two_rooms", 70, 1);
-    const ParallelFor serial = serialFor();
-    const auto parallel = makePathTracing(), alone = makePathTracing();
-    parallel->prepare(room.world(), room.points);
-    alone->prepare({room.embree, serial}, room.points);
-    const auto light = lightAfter(*parallel, room, 5, 2, 37 * room.points.size());
-    EXPECT_EQ(light, lightAfter(*alone, room, 5, 2, 37 * room.points.size()));
-    EXPECT_NE(light, lightAfter(*parallel, room, 6, 2, 37 * room.points.size()));
-    EXPECT_EQ(light, lightAfter(*parallel, room, 5, 2, 37 * room.points.size()));
+TEST(PathTracing, lightFollowsFromTheSeed) {
+    expectLightFollowsFromTheSeed(makePathTracing, 37 * 70);
 }
 
 }  // namespace
