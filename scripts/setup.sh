@@ -8,6 +8,7 @@ buildPackages=(
     libassimp-dev zlib1g-dev                  # assimp's CMake package links zlib, but its Debian package does not bring it
     libopenimageio-dev openimageio-tools      # the same for OpenImageIO's tools, which its CMake package checks for
     libcli11-dev nlohmann-json3-dev libfmt-dev
+    libvtk9-dev                               # plots of the report
     libvulkan-dev glslang-tools spirv-tools   # the Vulkan back end and the shaders that it runs
     libgtest-dev libbenchmark-dev
 )

@@ -1,5 +1,6 @@
 #include "benchmarks/report/report_plans.h"
 
+#include "benchmarks/baselines/ddgi.h"
 #include "benchmarks/baselines/path_tracing.h"
 
 namespace clv {
@@ -7,12 +8,21 @@ namespace {
 
 constexpr std::uint64_t kThousand = 1 << 10, kMillion = 1 << 20;
 
+MethodCase ddgi(const DdgiSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames) {
+    return {.make = [settings] { return makeDdgi(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
+}
+
 }  // namespace
 
 ReportPlan quickPlan() {
     ReportPlan plan;
     plan.scenes = {"cornell", "atrium"};
-    plan.cases = {{.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand}}};
+    plan.cases = {
+        {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
+        ddgi({.resolution = 8}, {64 * kThousand}, {1, 4, 16}),
+        ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
+        ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
+    };
     plan.truth = {.points = 1000, .pictureWidth = 64, .samples = 8192};
     plan.repeats = 4;
     return plan;
@@ -21,7 +31,13 @@ ReportPlan quickPlan() {
 ReportPlan fullPlan() {
     ReportPlan plan;
     plan.scenes = {"cornell", "two_rooms", "atrium", "atrium_turned"};
-    plan.cases = {{.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion}}};
+    plan.cases = {{.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion, 16 * kMillion}}};
+    for (const Readers readers : {Readers::surfaces, Readers::anywhere}) {
+        for (const int resolution : {8, 16, 32}) {
+            for (const float hysteresis : {0.97f, 1.0f})
+                plan.cases.push_back(ddgi({.resolution = resolution, .readers = readers, .hysteresis = hysteresis}, {64 * kThousand, 512 * kThousand}, {1, 4, 16, 64}));
+        }
+    }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;
     return plan;

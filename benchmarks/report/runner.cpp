@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,12 @@ std::optional<double> leakOf(std::span<const glm::vec3> estimate, std::span<cons
     }
     if (darkTruth.empty()) return {};
     return leak(darkEstimate, darkTruth, litEstimate);
+}
+
+fs::path pictureNamed(const fs::path& folder, const std::string& key) {
+    Checksum sum;
+    sum.add(key);
+    return folder / "pictures" / fmt::format("{:016x}.exr", sum.value());
 }
 
 // Figures of the repeats of one measurement.
@@ -108,6 +115,7 @@ private:
         const Scene scene = loadScene(name);
         const EmbreeScene embree(scene);
         const SceneTruth truth = findTruth(embree, plan_.truth, folder_ / "truths", parallelFor_);
+        writePicture(truth.irradiance, truth, truthPictureFile(folder_, plan_, name));
         for (const MethodCase& one : plan_.cases) {
             const double work = workOf(name, one);
             if (work > 0.0) measureCase(one, askedOf(name, one), embree, truth);
@@ -176,9 +184,12 @@ private:
         m.bytes = method.bytes();
         const auto radiance = [&](std::span<const glm::vec3> all) { return radianceImage(truth.width, truth.height, truth.surfaces, truth.inPicture(all)); };
         m.picture = compareImages(radiance(irradiance), radiance(truth.irradiance));
-        Image picture(truth.width, truth.height);
+        writePicture(irradiance, truth, pictureFile(folder_, m));
+    }
+    static void writePicture(std::span<const glm::vec3> irradiance, const SceneTruth& truth, const fs::path& file) {
+        Image picture(truth.width, truth.height, glm::vec3(std::numeric_limits<float>::quiet_NaN()));
         for (std::size_t i = 0; i < truth.surfaces.size(); ++i) picture.pixels[truth.surfaces[i].pixel] = truth.inPicture(irradiance)[i];
-        writeExr(picture, pictureFile(folder_, m).string());
+        writeExr(picture, file.string());
     }
 
     const ReportPlan& plan_;
@@ -197,9 +208,11 @@ std::vector<Measurement> measureAll(const ReportPlan& plan, const fs::path& fold
 }
 
 fs::path pictureFile(const fs::path& folder, const Measurement& m) {
-    Checksum sum;
-    sum.add(m.key);
-    return folder / "pictures" / fmt::format("{:016x}.exr", sum.value());
+    return pictureNamed(folder, m.key);
+}
+
+fs::path truthPictureFile(const fs::path& folder, const ReportPlan& plan, const std::string& scene) {
+    return pictureNamed(folder, fmt::format("{}; {} pixels across, {} paths", scene, plan.truth.pictureWidth, plan.truth.samples));
 }
 
 }  // namespace clv

@@ -36,5 +36,7 @@ std::vector<Measurement> measureAll(const ReportPlan& plan, const std::filesyste
 
 // What a method makes of the picture of the truth, first repeat; EXR.
 std::filesystem::path pictureFile(const std::filesystem::path& folder, const Measurement& m);
+// The picture of the truth; not a number where nothing is seen.
+std::filesystem::path truthPictureFile(const std::filesystem::path& folder, const ReportPlan& plan, const std::string& scene);
 
 }  // namespace clv

@@ -1,10 +1,15 @@
 // clv report: error against run time, of this library and of the methods that it competes with, measured on this machine.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "benchmarks/report/page.h"
 #include "benchmarks/report/provenance.h"
 #include "benchmarks/report/report_plans.h"
 #include "bindings/cli/command_line.h"
@@ -15,31 +20,68 @@
 namespace clv {
 namespace {
 
+constexpr int kMostPoints = 1 << 20, kMostRepeats = 1000;
+
 void writeText(const std::string& file, const std::string& text) {
     std::ofstream output(file, std::ios::binary);
     output << text << std::flush;
     if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", file));
 }
 
+// As the program was started, with quotes where a word needs them.
+std::string commandLine() {
+    std::ifstream input("/proc/self/cmdline", std::ios::binary);
+    std::string text;
+    for (std::string word; std::getline(input, word, '\0');) {
+        const bool plain = word.find_first_of(" '\"\\$`") == std::string::npos;
+        text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    }
+    return text;
+}
+
+void keepMethods(std::vector<MethodCase>& cases, const std::vector<std::string>& methods) {
+    std::set<std::string> names;
+    for (const MethodCase& one : cases) names.insert(one.make()->name());
+    for (const std::string& method : methods) {
+        if (!names.contains(method)) throw InputError(fmt::format("--methods {}: expected some of: {}", method, fmt::join(names, ", ")));
+    }
+    std::erase_if(cases, [&](const MethodCase& one) { return std::ranges::find(methods, one.make()->name()) == methods.end(); });
+}
+
 struct ReportCommand {
     CommonOptions common;
     std::string out;
-    std::vector<std::string> scenes;  // in place of those of the plan, or empty
     bool full = false;
+    // In place of what the plan has, or empty.
+    std::vector<std::string> scenes, methods;
+    std::optional<std::size_t> points;
+    std::optional<std::uint64_t> truthSamples;
+    std::optional<int> repeats;
+
+    ReportPlan plan() const {
+        ReportPlan plan = full ? fullPlan() : quickPlan();
+        if (!scenes.empty()) plan.scenes = scenes;
+        if (!methods.empty()) keepMethods(plan.cases, methods);
+        plan.truth.points = points.value_or(plan.truth.points);
+        plan.truth.samples = truthSamples.value_or(plan.truth.samples);
+        plan.repeats = repeats.value_or(plan.repeats);
+        plan.seed = common.seed;
+        plan.program = fmt::format("{} on {} threads", programChecksum(), threadCount(common));
+        return plan;
+    }
 
     void run(const CLI::App& command) const {
         Report report = startReport(command, common);
+        const ReportPlan plan = this->plan();
         const std::filesystem::path folder = outputFolder(out);
         StagedOutput output(folder);
-        ReportPlan plan = full ? fullPlan() : quickPlan();
-        if (!scenes.empty()) plan.scenes = scenes;
-        plan.seed = common.seed;
-        plan.program = fmt::format("{} on {} threads", programChecksum(), threadCount(common));
-
         Progress progress("report");
         const std::vector<Measurement> all = measureAll(plan, folder, parallelForOf(common), [&](double share) { progress.update(share); });
         report.update(provenance());
-        report["size"] = full ? "full" : "quick";
+        report["command_line"] = commandLine();
+        std::map<std::string, std::vector<HeatMap>> heatMaps;
+        for (const std::string& scene : plan.scenes) heatMaps[scene] = heatMapsAt(kHeatMapBudget, kPointReaders, curvesOf(all, scene), truthPictureFile(folder, plan, scene), folder);
+        writeText(output.path("report.html"), htmlOf(all, report, heatMaps));
         Report file = report;
         file["measurements"] = Report::array();
         for (const Measurement& m : all) file["measurements"].push_back(toJson(m));
@@ -51,7 +93,7 @@ struct ReportCommand {
         report["measurements"] = all.size();
         report["seconds"] = progress.seconds();
         report["out"] = out;
-        report["files"] = {"report.csv", "report.json"};
+        report["files"] = {"report.html", "report.csv", "report.json"};
         printReport(report, common);
     }
 };
@@ -65,6 +107,10 @@ void addReportCommand(CLI::App& app) {
     auto* quick = command->add_flag("--quick")->description("A few minutes (the default)");
     command->add_flag("--full", options->full, "Within an hour: more scenes, settings, points and repeats")->excludes(quick);
     command->add_option("--scenes", options->scenes, "Scenes in place of the report's own: files, or names of built-in ones");
+    command->add_option("--methods", options->methods, "Those of the report's methods to measure");
+    command->add_option("--points", options->points, "Points where errors are measured")->check(CLI::Range(1, kMostPoints));
+    command->add_option("--truth-samples", options->truthSamples, "Paths a point of the truth")->check(CLI::PositiveNumber);
+    command->add_option("--repeats", options->repeats, "Seeds a measurement")->check(CLI::Range(1, kMostRepeats));
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });
 }

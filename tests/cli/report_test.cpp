@@ -27,9 +27,33 @@ TEST_F(ReportCommand, badPlacesAndScenesAreRefusedInOneLine) {
     expectRefused({"report", "--out", write("text", "no folder")}, {"text", "expected a folder"});
     expectRefused({"report", "--out", "/proc/none"}, {"/proc/none"});
     expectRefused({"report", "--out", file("b"), "--scenes", "nowhere"}, {"nowhere"});
+    expectRefused({"report", "--out", file("b"), "--methods", "magic"}, {"magic", "path_tracing"});
     std::filesystem::create_directory(file("c"));
     write("c/measurements.jsonl", "{\"key\":1}\n");
     expectRefused({"report", "--out", file("c")}, {"measurements.jsonl:1", "expected a measurement"});
+}
+
+TEST_F(ReportCommand, writesAPageTablesAndMeasurementsOnce) {
+    const std::vector<std::string> arguments = {"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20",
+                                                "--truth-samples", "64", "--repeats", "2", "--json"};
+    const CommandResult result = runCommand(arguments);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto said = nlohmann::json::parse(result.out);
+    EXPECT_EQ(said.at("files"), nlohmann::json({"report.html", "report.csv", "report.json"}));
+    const auto report = nlohmann::json::parse(read(file("r/report.json")));
+    for (const char* key : {"commit", "processor", "date", "command_line"}) EXPECT_TRUE(report.contains(key)) << key;
+    ASSERT_GT(report.at("measurements").size(), 1u);
+    EXPECT_EQ(said.at("measurements"), report.at("measurements").size());
+    for (const auto& m : report.at("measurements")) EXPECT_EQ(m.at("method"), "path_tracing");
+    EXPECT_LT(report.at("measurements").back().at("relative_rmse"), report.at("measurements").front().at("relative_rmse"));
+    const std::string csv = read(file("r/report.csv"));
+    EXPECT_EQ(std::size_t(std::ranges::count(csv, '\n')), 1 + report.at("measurements").size());
+    EXPECT_NE(read(file("r/report.html")).find("What a millisecond buys"), std::string::npos);
+
+    const std::string measured = read(file("r/measurements.jsonl"));
+    ASSERT_EQ(runCommand(arguments).status, 0);
+    EXPECT_EQ(read(file("r/measurements.jsonl")), measured) << "nothing is measured twice";
+    for (const std::string& name : listing("r")) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
 TEST(TimeLeft, isWhatThePaceSoFarForetells) {

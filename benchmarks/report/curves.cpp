@@ -1,0 +1,110 @@
+#include "benchmarks/report/curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clv {
+namespace {
+
+double workOf(const Measurement& m) {
+    return double(m.rays) * m.frames;
+}
+
+struct Line {
+    double at0 = 0.0, slope = 0.0;
+};
+
+// Least squares.
+Line fitLine(std::span<const double> x, std::span<const double> y) {
+    const double n = double(x.size());
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], sxy += x[i] * y[i];
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return {(sy - slope * sx) / n, slope};
+}
+
+}  // namespace
+
+std::vector<std::string> scenesOf(std::span<const Measurement> all) {
+    std::vector<std::string> names;
+    for (const Measurement& m : all) {
+        if (std::ranges::find(names, m.scene) == names.end()) names.push_back(m.scene);
+    }
+    return names;
+}
+
+std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene) {
+    std::vector<Curve> curves;
+    for (const Measurement& m : all) {
+        if (m.scene != scene) continue;
+        auto found = std::ranges::find(curves, curveName(m), &Curve::name);
+        if (found == curves.end()) found = curves.insert(curves.end(), {curveName(m), m.method, {}});
+        found->points.push_back(&m);
+    }
+    for (Curve& curve : curves) std::ranges::stable_sort(curve.points, {}, [](const Measurement* m) { return workOf(*m); });
+    return curves;
+}
+
+Points pointsOf(std::span<const Curve> curves) {
+    Points all;
+    for (const Curve& curve : curves) all.insert(all.end(), curve.points.begin(), curve.points.end());
+    return all;
+}
+
+Points paretoFront(const Points& points, double readers) {
+    Points sorted = points, front;
+    std::ranges::stable_sort(sorted, {}, [&](const Measurement* m) { return m->seconds(readers); });
+    for (const Measurement* m : sorted) {
+        if (front.empty() || m->errors.relativeRmse < front.back()->errors.relativeRmse) front.push_back(m);
+    }
+    return front;
+}
+
+const Measurement* bestWithin(const Points& points, double seconds, double readers) {
+    const Measurement* best = nullptr;
+    for (const Measurement* m : paretoFront(points, readers)) {
+        if (m->seconds(readers) <= seconds) best = m;
+    }
+    return best;
+}
+
+std::optional<double> secondsToReach(const Points& points, double error, double readers) {
+    const Points front = paretoFront(points, readers);
+    const auto reached = std::ranges::find_if(front, [&](const Measurement* m) { return m->errors.relativeRmse <= error; });
+    if (reached == front.end()) return {};
+    const double after = (*reached)->seconds(readers);
+    if (reached == front.begin()) return after;
+    const Measurement& before = **(reached - 1);
+    const double share = std::log(error / before.errors.relativeRmse) / std::log((*reached)->errors.relativeRmse / before.errors.relativeRmse);
+    return before.seconds(readers) * std::pow(after / before.seconds(readers), share);
+}
+
+double ErrorFall::at(double work) const {
+    return std::hypot(floor, factor * std::pow(work, slope));
+}
+
+std::optional<ErrorFall> fitErrorFall(std::span<const double> work, std::span<const double> errors) {
+    if (work.size() < 3) return {};
+    const double least = *std::ranges::min_element(errors);
+    ErrorFall best;
+    double bestMisfit = std::numeric_limits<double>::infinity();
+    // For each floor below the least error the rest is a line in logarithms.
+    constexpr int kFloors = 200;
+    for (int k = 0; k < kFloors; ++k) {
+        const double floor = least * k / kFloors;
+        std::vector<double> x, y;
+        for (std::size_t i = 0; i < work.size(); ++i) {
+            x.push_back(std::log(work[i]));
+            y.push_back(0.5 * std::log(errors[i] * errors[i] - floor * floor));
+        }
+        const Line line = fitLine(x, y);
+        const ErrorFall fall{floor, std::exp(line.at0), line.slope};
+        double misfit = 0.0;
+        for (std::size_t i = 0; i < work.size(); ++i) misfit += std::pow(std::log(fall.at(work[i]) / errors[i]), 2.0);
+        if (misfit < bestMisfit) bestMisfit = misfit, best = fall;
+    }
+    return best;
+}
+
+}  // namespace clv

@@ -1,0 +1,46 @@
+// What measurements say together: curves, the best of them, and how error falls with work.
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "benchmarks/report/measurement.h"
+
+namespace clv {
+
+// Measurements of one scene and one method with its settings, by rising work.
+struct Curve {
+    std::string name;
+    std::string method;
+    std::vector<const Measurement*> points;
+};
+
+// Names of the scenes, in their order.
+std::vector<std::string> scenesOf(std::span<const Measurement> all);
+// In the order of their first measurements. `all` must outlive them.
+std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene);
+
+using Points = std::vector<const Measurement*>;
+Points pointsOf(std::span<const Curve> curves);
+
+// Those that no other beats in both time and error, by rising time; `readers` receive the light.
+Points paretoFront(const Points& points, double readers);
+
+// The one that errs least within `seconds`, or nullptr.
+const Measurement* bestWithin(const Points& points, double seconds, double readers);
+
+// Least run time to come to this relative RMSE: along the front, a straight line in logarithms between its points. Nothing where no
+// point errs as little; the first point's time where all err less.
+std::optional<double> secondsToReach(const Points& points, double error, double readers);
+
+// error^2 = floor^2 + (factor * work^slope)^2.
+struct ErrorFall {
+    double floor = 0.0, factor = 0.0, slope = 0.0;
+
+    double at(double work) const;
+};
+// Fits it to at least three pairs in logarithms; nothing for fewer.
+std::optional<ErrorFall> fitErrorFall(std::span<const double> work, std::span<const double> errors);
+
+}  // namespace clv

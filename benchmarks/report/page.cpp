@@ -1,0 +1,169 @@
+#include "benchmarks/report/page.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/chart.h"
+#include "benchmarks/report/text.h"
+
+namespace clv {
+namespace {
+
+constexpr int kPlotWidth = 620, kPlotHeight = 420;
+// Run times of a frame, s.
+constexpr double kPointBudgets[] = {0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 50e-3};
+constexpr double kPictureBudgets[] = {50e-3, 100e-3, 200e-3, 500e-3, 1.0, 5.0};
+
+constexpr const char* kStyle = R"(
+body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1300px; padding: 0 1em; color: #222; }
+table { border-collapse: collapse; margin: 0.7em 0 1.5em; }
+th, td { border-bottom: 1px solid #ddd; padding: 0.25em 0.8em; text-align: left; vertical-align: top; }
+th { border-bottom: 2px solid #888; }
+td.n { text-align: right; white-space: nowrap; }
+small, .note { color: #666; }
+.plots { display: flex; flex-wrap: wrap; gap: 1em; }
+figure { margin: 0; } figcaption { font-size: 90%; color: #444; }
+.key span { white-space: nowrap; margin-right: 1.3em; }
+.wide { overflow-x: auto; font-size: 85%; }
+)";
+
+std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
+    std::string text = "<tr>";
+    for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, cell);
+    return text + "</tr>\n";
+}
+
+// For each budget and scene the setting that errs least within it.
+std::string budgetTable(const std::vector<Measurement>& all, std::span<const double> budgets, double readers) {
+    const std::vector<std::string> scenes = scenesOf(all);
+    std::vector<std::string> head = {"budget"};
+    for (const std::string& scene : scenes) head.push_back(escaped(scene));
+    std::string text = "<table>\n" + row(head, "th");
+    for (const double budget : budgets) {
+        std::vector<std::string> cells = {fmt::format("<b>{:g} ms</b>", 1e3 * budget)};
+        for (const std::string& scene : scenes) {
+            const Measurement* best = bestWithin(pointsOf(curvesOf(all, scene)), budget, readers);
+            cells.push_back(best ? fmt::format("<b>{}</b> {}<br><small>{}</small>", percentText(best->errors.relativeRmse), escaped(describe(*best)),
+                                               timeText(best->seconds(readers)))
+                                 : "–");
+        }
+        text += row(cells);
+    }
+    return text + "</table>\n";
+}
+
+std::string figure(const Chart& chart, const std::string& caption) {
+    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svgOf(chart, kPlotWidth, kPlotHeight), caption);
+}
+
+template <class X, class Y>
+Chart curveChart(const std::vector<Curve>& curves, X&& x, Y&& y) {
+    Chart chart;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        ChartSeries series{.points = {}, .color = chartColor(i)};
+        for (const Measurement* m : curves[i].points) series.points.emplace_back(x(*m), y(*m));
+        chart.series.push_back(series);
+    }
+    return chart;
+}
+
+double errorPercent(const Measurement& m) {
+    return 100.0 * m.errors.relativeRmse;
+}
+
+std::string errorOverTime(const std::vector<Curve>& curves, double readers, const std::string& title) {
+    Chart chart = curveChart(curves, [&](const Measurement& m) { return 1e3 * m.seconds(readers); }, errorPercent);
+    ChartSeries front{.points = {}, .color = glm::u8vec3(190), .markers = false, .width = 9.0f};
+    for (const Measurement* m : paretoFront(pointsOf(curves), readers)) front.points.emplace_back(1e3 * m->seconds(readers), errorPercent(*m));
+    chart.series.insert(chart.series.begin(), front);
+    chart.title = title, chart.xTitle = "run time, ms", chart.yTitle = "relative RMSE, %";
+    return figure(chart, "Lower and further left is better. Grey: the Pareto front, which nothing beats in both.");
+}
+
+std::string errorOverRays(const std::vector<Curve>& curves) {
+    const auto work = [](const Measurement& m) { return double(m.raysTraced); };
+    Chart chart = curveChart(curves, work, errorPercent);
+    chart.title = "error over rays", chart.xTitle = "rays traced, all frames", chart.yTitle = "relative RMSE, %";
+    std::string table = "<table>" + row({"", "slope", "floor"}, "th");
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        std::vector<double> rays, errors;
+        for (const Measurement* m : curves[i].points) rays.push_back(work(*m)), errors.push_back(m->errors.relativeRmse);
+        const auto fall = fitErrorFall(rays, errors);
+        if (!fall) continue;
+        ChartSeries fitted{.points = {}, .color = chartColor(i), .markers = false, .width = 1.0f};
+        const auto [least, most] = std::ranges::minmax(rays);
+        constexpr int kSteps = 32;
+        for (int k = 0; k <= kSteps; ++k) {
+            const double n = least * std::pow(most / least, double(k) / kSteps);
+            fitted.points.emplace_back(n, 100.0 * fall->at(n));
+        }
+        chart.series[i].line = false;
+        chart.series.push_back(fitted);
+        table += row({escaped(curves[i].name), fmt::format("{:.2f}", fall->slope), percentText(fall->floor)});
+    }
+    return figure(chart, "Thin: error² = floor² + (c · rays^slope)². Noise alone falls with a slope of −0.5; the floor is what no rays remove." + table + "</table>");
+}
+
+std::string bytesOverError(const std::vector<Curve>& curves) {
+    Chart chart = curveChart(curves, errorPercent, [](const Measurement& m) { return double(m.bytes) / double(1 << 20); });
+    chart.title = "memory over error", chart.xTitle = "relative RMSE, %", chart.yTitle = "MiB held";
+    return figure(chart, "For the light and for finding it, without the scene.");
+}
+
+std::string keyOf(const std::vector<Curve>& curves) {
+    std::string text = "<p class=\"key\">";
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const glm::u8vec3 c = chartColor(i);
+        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">●</b> {}</span> ", c.r, c.g, c.b, escaped(curves[i].name));
+    }
+    return text + "</p>\n";
+}
+
+std::string fullTable(const std::vector<Measurement>& all) {
+    std::string text = "<div class=\"wide\"><table>" +
+                       row({"scene", "method", "rays", "frames", "relative RMSE", "± 95 %", "bias", "p95", "leak", "RMS", "PSNR", "look different", "maps", "frames' time",
+                            "spread", "lookups", fmt::format("at {:g} points", kPointReaders), fmt::format("at {:g} pixels", kPictureReaders), "set-up", "rays traced", "held"},
+                           "th");
+    for (const Measurement& m : all) {
+        text += row({escaped(m.scene), escaped(curveName(m)), countText(m.rays), std::to_string(m.frames), percentText(m.errors.relativeRmse), percentText(m.errorInterval),
+                     percentText(m.errors.bias), percentText(m.errors.p95), m.leak ? fmt::format("{:.2f}", *m.leak) : "", fmt::format("{:.4f}", m.picture.rms),
+                     fmt::format("{:.1f} dB", m.picture.psnr), percentText(m.picture.perceptualFailures), timeText(m.mapSeconds), timeText(m.frameSeconds),
+                     timeText(m.frameSecondsSpread), timeText(m.lookupSeconds), timeText(m.seconds(kPointReaders)), timeText(m.seconds(kPictureReaders)),
+                     timeText(m.setupSeconds), fmt::format("{}", m.raysTraced), bytesText(m.bytes)});
+    }
+    return text + "</table></div>\n";
+}
+
+}  // namespace
+
+std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_json& about, const std::map<std::string, std::vector<HeatMap>>& heatMaps) {
+    std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against run time</title>\n<style>{}</style></head><body>\n", kStyle);
+    page += "<h1>Error against run time</h1>\n<h2>What a millisecond buys</h2>\n";
+    page += fmt::format("<p>The setting that errs least within a budget of run time, light and lookups at {:g} points, maps and set-up apart. "
+                        "Errors are relative RMSE of the indirect irradiance against path tracing.</p>\n",
+                        kPointReaders);
+    page += budgetTable(all, kPointBudgets, kPointReaders);
+    page += fmt::format("<p>The same at {:g} points, a picture of 1280 × 720:</p>\n", kPictureReaders);
+    page += budgetTable(all, kPictureBudgets, kPictureReaders);
+    for (const std::string& scene : scenesOf(all)) {
+        const std::vector<Curve> curves = curvesOf(all, scene);
+        page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(curves));
+        page += errorOverTime(curves, kPointReaders, fmt::format("{}, {:g} points", scene, kPointReaders));
+        page += errorOverTime(curves, kPictureReaders, fmt::format("{}, 1280 x 720 pixels", scene));
+        page += errorOverRays(curves) + bytesOverError(curves) + "</div>\n";
+        page += fmt::format("<p class=\"note\">The truth's own standard error, {}, is in these errors.</p>\n", percentText(curves.front().points.front()->truthError));
+        const auto maps = heatMaps.find(scene);
+        if (maps == heatMaps.end()) continue;
+        page += fmt::format("<h3>Where the methods err within {}</h3>\n<div class=\"plots\">\n", timeText(kHeatMapBudget));
+        for (const HeatMap& map : maps->second)
+            page += fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", base64(map.png), escaped(map.title));
+        page += "</div>\n";
+    }
+    page += "<h2>All measurements</h2>\n" + fullTable(all) + "<h2>Where these come from</h2>\n<table>\n";
+    for (const auto& [name, value] : about.items()) page += row({escaped(name), escaped(value.is_string() ? value.get<std::string>() : value.dump())});
+    return page + "</table>\n</body></html>\n";
+}
+
+}  // namespace clv

@@ -1,0 +1,80 @@
+// What measurements say together, on made-up ones.
+#include "benchmarks/report/curves.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace clv;
+
+Measurement made(const std::string& method, double milliseconds, double error, std::uint64_t rays = 1) {
+    Measurement m;
+    m.scene = "s", m.method = method, m.rays = rays;
+    m.frameSeconds = 1e-3 * milliseconds, m.errors.relativeRmse = error;
+    m.receivers = 100;
+    return m;
+}
+
+const std::vector<Measurement> kMade = {made("a", 1, 0.4, 1), made("a", 4, 0.2, 4), made("a", 16, 0.1, 16), made("b", 2, 0.5, 1), made("b", 3, 0.1, 9)};
+
+TEST(Curves, aSceneHasOneForEachMethodByRisingWork) {
+    std::vector<Measurement> mixed = kMade;
+    std::swap(mixed[0], mixed[2]);
+    mixed.push_back(made("a", 1, 1.0));
+    mixed.back().scene += "2";
+    const auto curves = curvesOf(mixed, "s");
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].name, "a");
+    ASSERT_EQ(curves[0].points.size(), 3u);
+    EXPECT_EQ(curves[0].points[0]->rays, 1u);
+    EXPECT_EQ(curves[0].points[2]->rays, 16u);
+    EXPECT_EQ(scenesOf(mixed), (std::vector<std::string>{"s", "s2"}));
+}
+
+TEST(Curves, theFrontHoldsWhatNothingBeatsInTimeAndError) {
+    const auto curves = curvesOf(kMade, "s");
+    const Points front = paretoFront(pointsOf(curves), 0);
+    ASSERT_EQ(front.size(), 2u);
+    EXPECT_EQ(front[0], &kMade[0]);
+    EXPECT_EQ(front[1], &kMade[4]);
+}
+
+TEST(Curves, theBestWithinABudgetIsTheOneThatErrsLeast) {
+    const Points points = pointsOf(curvesOf(kMade, "s"));
+    EXPECT_EQ(bestWithin(points, 0.5e-3, 0), nullptr);
+    EXPECT_EQ(bestWithin(points, 2.5e-3, 0), &kMade[0]);
+    EXPECT_EQ(bestWithin(points, 1.0, 0), &kMade[4]);
+}
+
+TEST(Curves, timeToAnErrorLiesOnAStraightLineInLogarithms) {
+    const Points a = curvesOf(kMade, "s")[0].points;
+    EXPECT_NEAR(*secondsToReach(a, 0.2, 0), 4e-3, 1e-12);
+    EXPECT_NEAR(*secondsToReach(a, std::sqrt(0.4 * 0.2), 0), 2e-3, 1e-12);
+    EXPECT_NEAR(*secondsToReach(a, 0.9, 0), 1e-3, 1e-12);
+    EXPECT_FALSE(secondsToReach(a, 0.05, 0));
+}
+
+TEST(Curves, readersPayForLookupsOrForRaysOfTheirOwn) {
+    Measurement shared = made("a", 10, 0.1), own = made("b", 10, 0.1);
+    shared.lookupSeconds = own.lookupSeconds = 1e-3;
+    own.sharesRays = false;
+    EXPECT_NEAR(shared.seconds(100), 11e-3, 1e-12);
+    EXPECT_NEAR(shared.seconds(1000), 20e-3, 1e-12);
+    EXPECT_NEAR(own.seconds(100), 11e-3, 1e-12);
+    EXPECT_NEAR(own.seconds(1000), 110e-3, 1e-12);
+}
+
+TEST(Curves, aFallWithAFloorIsFound) {
+    std::vector<double> work, errors;
+    for (double n = 1e3; n < 1e7; n *= 4.0) work.push_back(n), errors.push_back(std::hypot(0.03, 20.0 * std::pow(n, -0.55)));
+    const auto fall = fitErrorFall(work, errors);
+    ASSERT_TRUE(fall);
+    EXPECT_NEAR(fall->slope, -0.55, 0.01);
+    EXPECT_NEAR(fall->floor, 0.03, 0.001);
+    EXPECT_NEAR(fall->at(5e4), std::hypot(0.03, 20.0 * std::pow(5e4, -0.55)), 1e-3);
+    EXPECT_FALSE(fitErrorFall(std::span(work).first(2), std::span(errors).first(2)));
+}
+
+}  // namespace
