@@ -8,6 +8,7 @@
 #include "benchmarks/gpu_run/stored.h"
 #include "benchmarks/gpu_run/ways.h"
 #include "bindings/vulkan/vulkan_frame.h"
+#include "clv/plan/triangle_corners.h"
 
 namespace clv {
 namespace {
@@ -15,14 +16,32 @@ namespace {
 // What the host reads back, a vector for each check.
 using Outputs = std::vector<std::vector<float>>;
 
-Outputs runCase(VulkanDevice& device, const StoredCase& stored, InjectWay way, ShaderLanguage language) {
+bool traces(const StoredCase& stored) { return stored.settings.lights > 0; }
+
+// Corners of the case's triangles.
+std::vector<vec3> cornersOf(const StoredCase& stored) {
+    std::vector<vec4> rows;
+    for (const StoredBuffer& buffer : stored.buffers) {
+        if (buffer.name != "triangles") continue;
+        rows.resize(buffer.bytes.size() / sizeof(vec4));
+        std::memcpy(rows.data(), buffer.bytes.data(), buffer.bytes.size());
+    }
+    return triangleCorners(rows, stored.settings.triangles);
+}
+
+Outputs runCase(VulkanDevice& device, const StoredCase& stored, InjectWay way, TraceWay trace, ShaderLanguage language) {
     LightFrameSettings settings = stored.settings;
-    settings.inject = way;
+    settings.inject = way, settings.trace = trace;
+    if (trace == TraceWay::query) settings.accelerationBytes = device.accelerationBytes(settings.triangles);
     Frame frame = lightFrame(settings);
     for (const StoredCheck& check : stored.checks) frame.buffers.at(frame.bufferIndex(check.buffer)).readBack = true;
     VulkanFrame run(device, frame, language);
     for (const StoredBuffer& buffer : stored.buffers) {
         if (frame.bufferIndex(buffer.name) < frame.buffers.size()) run.upload(buffer.name, std::span(buffer.bytes));
+    }
+    if (trace == TraceWay::query) {
+        run.upload("corners", std::span<const vec3>(cornersOf(stored)));
+        run.run("scene");
     }
     for (const std::string& step : stored.steps) run.run(step);
     Outputs outputs;
@@ -61,10 +80,10 @@ std::string compare(const StoredCheck& check, const std::vector<float>& values, 
 
 // A difference of languages is no fault: compilers of drivers may round differently where Vulkan lets them.
 CaseResult repeatCase(VulkanDevice& device, const StoredCase& stored) {
-    const Outputs first = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::glsl);
-    const bool again = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::glsl) == first;
-    const bool hlsl = runCase(device, stored, InjectWay::fixedPoint, ShaderLanguage::hlsl) == first;
-    return {stored.name + ", twice", "glsl", wayName(InjectWay::fixedPoint), again,
+    const auto run = [&](ShaderLanguage language) { return runCase(device, stored, InjectWay::fixedPoint, TraceWay::walk, language); };
+    const Outputs first = run(ShaderLanguage::glsl);
+    const bool again = run(ShaderLanguage::glsl) == first, hlsl = run(ShaderLanguage::hlsl) == first;
+    return {stored.name + ", twice", "glsl", wayName(InjectWay::fixedPoint), traces(stored) ? traceName(TraceWay::walk) : "", again,
             std::string(again ? "the same bits again" : "other bits in the second run") + (hlsl ? ", and in HLSL" : ", others in HLSL")};
 }
 
@@ -82,14 +101,17 @@ std::vector<CaseResult> checkCases(VulkanDevice& device, const std::filesystem::
         const StoredCase stored = readStoredCase(file);
         std::vector<InjectWay> ways = waysOf(device.info().features, stored.settings.rule);
         if (stored.settings.levels.empty()) ways.resize(1);
+        const auto check = [&](InjectWay way, TraceWay trace, ShaderLanguage language) {
+            CaseResult result{stored.name, language == ShaderLanguage::glsl ? "glsl" : "hlsl", stored.settings.levels.empty() ? "" : wayName(way), traces(stored) ? traceName(trace) : "", true, ""};
+            const Outputs outputs = runCase(device, stored, way, trace, language);
+            for (std::size_t i = 0; i < outputs.size(); ++i) result.words += (i > 0 ? "; " : "") + compare(stored.checks[i], outputs[i], result.passed);
+            results.push_back(result);
+        };
         for (const InjectWay way : ways) {
-            for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) {
-                CaseResult result{stored.name, language == ShaderLanguage::glsl ? "glsl" : "hlsl", stored.settings.levels.empty() ? "" : wayName(way), true, ""};
-                const Outputs outputs = runCase(device, stored, way, language);
-                for (std::size_t i = 0; i < outputs.size(); ++i) result.words += (i > 0 ? "; " : "") + compare(stored.checks[i], outputs[i], result.passed);
-                results.push_back(result);
-            }
+            for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) check(way, TraceWay::walk, language);
         }
+        // Queries are of GLSL alone.
+        if (traces(stored) && device.info().features.rayQueries) check(ways.front(), TraceWay::query, ShaderLanguage::glsl);
         if (!stored.settings.levels.empty()) results.push_back(repeatCase(device, stored));
     }
     return results;

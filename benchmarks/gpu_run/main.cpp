@@ -70,16 +70,16 @@ std::string versionText(std::uint32_t version) {
 
 Json deviceJson(const VulkanDeviceInfo& info) {
     return Json::object({{"name", info.name}, {"driver", info.driver}, {"type", info.type}, {"vulkan", versionText(info.apiVersion)}, {"memory_bytes", info.memory},
-                         {"float_atomics", info.features.floatAtomics}, {"subgroup_size", info.features.subgroupSize}, {"ray_tracing_pipelines", info.features.rayTracingPipelines}});
+                         {"float_atomics", info.features.floatAtomics}, {"subgroup_size", info.features.subgroupSize}, {"ray_queries", info.features.rayQueries}});
 }
 
 Json caseJson(const CaseResult& result) {
-    return Json::object({{"name", result.name}, {"language", result.language}, {"inject", result.way}, {"passed", result.passed}, {"found", result.words}});
+    return Json::object({{"name", result.name}, {"language", result.language}, {"inject", result.way}, {"trace", result.trace}, {"passed", result.passed}, {"found", result.words}});
 }
 
 Json wayJson(const TimedWay& way) {
-    if (!way.failure.empty()) return Json::object({{"inject", wayName(way.way)}, {"failure", way.failure}});
-    std::vector<Json::Member> members{{"inject", wayName(way.way)}, {"repeats", way.repeats}};
+    if (!way.failure.empty()) return Json::object({{"inject", wayName(way.way)}, {"trace", traceName(way.trace)}, {"failure", way.failure}});
+    std::vector<Json::Member> members{{"inject", wayName(way.way)}, {"trace", traceName(way.trace)}, {"repeats", way.repeats}};
     for (int row = 0; row < kTimedRows; ++row) {
         members.push_back({kTimedRowNames[row], Json::object({{"median_ms", way.rows[row].median}, {"minimum_ms", way.rows[row].minimum}})});
     }
@@ -114,10 +114,10 @@ Json frameJson(const TimedFrame& frame) {
 }
 
 void printFrame(const TimedFrame& frame) {
-    std::printf("\n%s: %llu slots, %llu pixels\n%-14s", frame.setting.name.c_str(), static_cast<unsigned long long>(frame.slots), static_cast<unsigned long long>(frame.receivers), "ms (median)");
+    std::printf("\n%s: %llu slots, %llu pixels\n%-21s", frame.setting.name.c_str(), static_cast<unsigned long long>(frame.slots), static_cast<unsigned long long>(frame.receivers), "ms (median)");
     for (const char* row : kTimedRowNames) std::printf("%14s", row);
     for (const TimedWay& way : frame.ways) {
-        std::printf("\n%-14s", wayName(way.way).c_str());
+        std::printf("\n%-21s", (wayName(way.way) + ", " + traceName(way.trace)).c_str());
         if (!way.failure.empty()) std::printf("  %s", way.failure.c_str());
         if (way.failure.empty()) {
             for (const TimedRow& row : way.rows) std::printf("%14.3f", row.median);
@@ -130,13 +130,15 @@ void printFrame(const TimedFrame& frame) {
 bool run(const Options& options) {
     // First as it comes, to see what it has; then with the features that it has.
     const VulkanFeatures features = VulkanDevice({.device = options.device}).info().features;
-    VulkanDevice device({.device = options.device, .floatAtomics = features.floatAtomics});
+    VulkanDevice device({.device = options.device, .floatAtomics = features.floatAtomics, .rayQueries = true});
     std::printf("%s, %s\n", device.info().name.c_str(), device.info().driver.c_str());
 
     std::vector<Json> cases, frames;
     bool passed = true;
     for (const CaseResult& result : checkCases(device, options.pack / "cases")) {
-        std::printf("%s  %s (%s%s%s): %s\n", result.passed ? "pass" : "FAIL", result.name.c_str(), result.language.c_str(), result.way.empty() ? "" : ", ", result.way.c_str(), result.words.c_str());
+        std::string how = result.language;
+        for (const std::string& way : {result.way, result.trace}) how += (way.empty() ? "" : ", ") + way;
+        std::printf("%s  %s (%s): %s\n", result.passed ? "pass" : "FAIL", result.name.c_str(), how.c_str(), result.words.c_str());
         passed = passed && result.passed;
         cases.push_back(caseJson(result));
     }

@@ -107,7 +107,7 @@ template <class Archive, class Value>
 void visit(Archive& archive, Value& s) {
     archive(s.lights), archive(s.rsmSide), archive(s.triangles), archive(s.bvhNodes), archive(s.textureTexels), archive(s.mapFaces), archive(s.faceSide);
     archive(s.rays), archive(s.receivers), archive(s.halves), archive(s.storage), archive(s.channels), archive(s.turned), archive(s.rule);
-    archive(s.guideCells), archive(s.guideRows), archive(s.movingLights), archive(s.keepHits), archive(s.picture), archive(s.inject), archive(s.sliceFormat), archive(s.levels);
+    archive(s.guideCells), archive(s.guideRows), archive(s.movingLights), archive(s.trace), archive(s.accelerationBytes), archive(s.keepHits), archive(s.picture), archive(s.inject), archive(s.sliceFormat), archive(s.levels);
 }
 
 template <class Archive, class Value>

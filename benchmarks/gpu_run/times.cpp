@@ -10,6 +10,7 @@
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/cpu/build_level.h"
 #include "clv/plan/cascade_placement.h"
+#include "clv/plan/triangle_corners.h"
 #include "clv/stages/rays.h"
 
 namespace clv {
@@ -81,9 +82,10 @@ public:
         }
     }
 
-    void time(InjectWay way, double seconds, TimedFrame& timed) {
-        TimedWay& result = timed.ways.emplace_back(TimedWay{.way = way});
-        settings_.inject = way;
+    void time(InjectWay way, TraceWay trace, double seconds, TimedFrame& timed) {
+        TimedWay& result = timed.ways.emplace_back(TimedWay{.way = way, .trace = trace});
+        settings_.inject = way, settings_.trace = trace;
+        if (trace == TraceWay::query) settings_.accelerationBytes = device_.accelerationBytes(settings_.triangles);
         settings_.rays = setting_.rays;
         settings_.rays = std::min(setting_.rays, largestFrameRays(settings_, device_.info().limits));
         timed.rounds = (setting_.rays + settings_.rays - 1) / settings_.rays;
@@ -120,8 +122,13 @@ private:
         constants_.originOffset = scene_.originOffset, constants_.triangleCount = uint(scene_.triangles.size() / kClvTriangleRows);
         frame.upload("frame", constants_);
         frame.upload("lights", std::span(scene_.lights));
-        frame.upload("bvh boxes", std::span(scene_.boxes));
-        frame.upload("bvh children", std::span(scene_.children));
+        if (settings_.trace == TraceWay::walk) {
+            frame.upload("bvh boxes", std::span(scene_.boxes));
+            frame.upload("bvh children", std::span(scene_.children));
+        } else {
+            frame.upload("corners", std::span<const vec3>(triangleCorners(scene_.triangles, settings_.triangles)));
+            frame.run("scene");
+        }
         frame.upload("triangles", std::span(scene_.triangles));
         frame.upload("surfaces", std::span(scene_.surfaces));
         frame.upload("receivers", std::span(receivers_));
@@ -193,7 +200,10 @@ TimedFrame timeFrame(VulkanDevice& device, const StoredScene& scene, const Timed
     TimedFrame timed{.setting = setting, .receivers = receivers.size()};
     for (const LevelInputs& level : levels) timed.slots += level.level.slots.size();
     FrameTimer timer(device, scene, setting, receivers, levels);
-    for (const InjectWay way : waysOf(device.info().features)) timer.time(way, seconds, timed);
+    const std::vector<TraceWay> traces = traceWaysOf(device.info());
+    const std::vector<InjectWay> ways = waysOf(device.info().features);
+    for (const TraceWay trace : traces) timer.time(ways.front(), trace, seconds, timed);
+    for (std::size_t i = 1; i < ways.size(); ++i) timer.time(ways[i], traces.front(), seconds, timed);
     return timed;
 }
 

@@ -28,6 +28,7 @@ struct TimedRow {
 
 struct TimedWay {
     InjectWay way;
+    TraceWay trace = TraceWay::walk;
     TimedRow rows[kTimedRows] = {};
     std::map<std::string, double> passes{};  // shortest time of each, ms
     std::size_t repeats = 0;
@@ -37,7 +38,7 @@ struct TimedWay {
 struct TimedFrame {
     TimedSetting setting;
     std::uint64_t receivers = 0, slots = 0, rounds = 0, bytes = 0;
-    std::vector<TimedWay> ways{};        // the device's default first
+    std::vector<TimedWay> ways{};        // the device's defaults first
 };
 
 // The settings that are timed: growing volumes, and those that goals are set for.

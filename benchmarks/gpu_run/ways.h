@@ -1,4 +1,4 @@
-// The ways to inject that a device can take, but for the slices of the thesis, whose lines are not the same everywhere.
+// The ways to trace that a device can take, and those to inject, but for the slices of the thesis, whose lines are not the same everywhere.
 #pragma once
 #include <string>
 #include <vector>
@@ -15,6 +15,15 @@ inline std::string wayName(InjectWay way) {
         case InjectWay::slices: return "slices";
         default: return "fixed_point";
     }
+}
+
+inline std::string traceName(TraceWay way) { return way == TraceWay::query ? "query" : "walk"; }
+
+// The default first.
+inline std::vector<TraceWay> traceWaysOf(const VulkanDeviceInfo& info) {
+    if (!info.features.rayQueries) return {TraceWay::walk};
+    if (defaultTrace(info) == TraceWay::query) return {TraceWay::query, TraceWay::walk};
+    return {TraceWay::walk, TraceWay::query};
 }
 
 // The default first.

@@ -45,7 +45,7 @@ void addVulkanDevices(Report& report) {
                             {"memory_mib", device.memory >> 20},
                             {"subgroup_size", device.features.subgroupSize},
                             {"inject", injectName(defaultInject(device.features))},
-                            {"trace", "bvh in compute"}});
+                            {"trace", defaultTrace(device) == TraceWay::query ? "ray queries in compute" : "bvh in compute"}});
         }
     } catch (const std::runtime_error& error) {
         report["vulkan_missing"] = error.what();

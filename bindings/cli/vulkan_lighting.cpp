@@ -7,6 +7,7 @@
 #include "bindings/cli/scene_facts.h"
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/plan/largest_flux.h"
+#include "clv/plan/triangle_corners.h"
 
 namespace clv {
 namespace {
@@ -93,6 +94,8 @@ public:
         frame_.inject = parts.inject, frame_.keepHits = settings.keepHits;
         frame_.triangles = parts.surfaces.surfaces.size() / kClvSurfaceRows, frame_.bvhNodes = parts.bvh.children.size();
         frame_.textureTexels = parts.surfaces.textureTexels.size();
+        frame_.trace = defaultTrace(parts.device.info());
+        if (frame_.trace == TraceWay::query) frame_.accelerationBytes = parts.device.accelerationBytes(frame_.triangles);
         frame_.rsmSide = settings.emitters > 0 ? std::uint64_t(kEmitterWidth) : std::uint64_t(maps_.side());
         const std::uint64_t mapTexels = lights_.size() * frame_.rsmSide * frame_.rsmSide;
         frame_.lights = settings.emitters == 0 && parts.ownMaps ? lights_.size() : 0;
@@ -192,9 +195,14 @@ private:
         run_.reset();  // its memory is free before the next one takes it
         run_.emplace(parts_.device, lightFrame(frame_));
         if (frame_.lights > 0) run_->upload("lights", std::span<const ClvLight>(lights_));
-        run_->upload("bvh boxes", std::span(parts_.bvh.boxes));
-        run_->upload("bvh children", std::span(parts_.bvh.children));
         run_->upload("triangles", std::span(parts_.bvh.triangles));
+        if (frame_.trace == TraceWay::walk) {
+            run_->upload("bvh boxes", std::span(parts_.bvh.boxes));
+            run_->upload("bvh children", std::span(parts_.bvh.children));
+        } else {
+            run_->upload("corners", std::span<const vec3>(triangleCorners(parts_.bvh.triangles, frame_.triangles)));
+            run_->run("scene");
+        }
         if (frame_.lights == 0 && !frame_.keepHits) return;
         run_->upload("surfaces", std::span(parts_.surfaces.surfaces));
         if (frame_.textureTexels == 0) return;
@@ -253,7 +261,7 @@ private:
 
 VulkanBackend::VulkanBackend(const BackendOptions& options, const EmbreeScene& scene, const EmbreeScene& target, std::uint32_t seed,
                              const ParallelFor& parallelFor, StageClock& clock)
-    : device_({.device = options.device, .loader = options.loader}), bvh_(buildBvh(target.scene())), surfaces_(surfaceRowsOf(target.scene())),
+    : device_({.device = options.device, .rayQueries = true, .loader = options.loader}), bvh_(buildBvh(target.scene())), surfaces_(surfaceRowsOf(target.scene())),
       parts_{device_, options.repeatable ? InjectWay::fixedPoint : defaultInject(device_.info().features), scene, bvh_, surfaces_, &scene == &target, seed, parallelFor, clock} {}
 
 std::unique_ptr<Lighting> VulkanBackend::makeLighting(const LightingSettings& settings) { return std::make_unique<VulkanLighting>(settings, parts_); }

@@ -10,10 +10,10 @@ namespace {
 
 // Numbers of the SPIR-V specification, version 1.3, sections 3.7 to 3.32.
 constexpr std::uint32_t kMagic = 0x07230203, kHeaderWords = 5;
-enum Op : std::uint32_t { kOpCapability = 17, kOpTypeInt = 21, kOpTypeImage = 25, kOpTypeSampledImage = 27, kOpTypeStruct = 30, kOpTypePointer = 32, kOpVariable = 59, kOpDecorate = 71, kOpMemberDecorate = 72 };
+enum Op : std::uint32_t { kOpCapability = 17, kOpTypeInt = 21, kOpTypeImage = 25, kOpTypeSampledImage = 27, kOpTypeStruct = 30, kOpTypePointer = 32, kOpVariable = 59, kOpDecorate = 71, kOpMemberDecorate = 72, kOpTypeAccelerationStructureKhr = 5341 };
 enum Decoration : std::uint32_t { kSpecId = 1, kBufferBlock = 3, kNonWritable = 24, kBinding = 33, kDescriptorSet = 34 };
 enum StorageClass : std::uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
-enum Capability : std::uint32_t { kGroupNonUniformShuffle = 65, kAtomicFloat32AddExt = 6033 };
+enum Capability : std::uint32_t { kGroupNonUniformShuffle = 65, kRayQueryKhr = 4472, kAtomicFloat32AddExt = 6033 };
 constexpr std::uint32_t kDim2D = 1, kDim3D = 2, kDimBuffer = 5, kStorageImage = 2;
 
 using Words = std::span<const std::uint32_t>;
@@ -46,6 +46,7 @@ struct Module {
             case kOpTypeImage:
             case kOpTypeSampledImage:
             case kOpTypeStruct:
+            case kOpTypeAccelerationStructureKhr:
             case kOpTypePointer: types[instruction[1]] = instruction; break;
             case kOpVariable: variables[instruction[2]] = instruction; break;
         }
@@ -63,6 +64,10 @@ struct Module {
     ShaderBinding binding(std::uint32_t id, Words variable) const {
         ShaderBinding binding{.number = decorations.at(id).at(kBinding)};
         const std::uint32_t pointee = types.at(variable[1])[3];
+        if (opOf(pointee) == kOpTypeAccelerationStructureKhr) {
+            binding.kind = FrameBinding::acceleration;
+            return binding;
+        }
         if (variable[3] == kUniformConstant) {
             const std::uint32_t image = opOf(pointee) == kOpTypeSampledImage ? types.at(pointee)[2] : pointee;
             const std::uint32_t dimension = opOf(image) == kOpTypeImage ? types.at(image)[3] : kDimBuffer + 1;
@@ -89,6 +94,7 @@ std::string kindName(FrameBinding kind) {
         case FrameBinding::uniform: return "a uniform buffer";
         case FrameBinding::texel: return "a typed view";
         case FrameBinding::image: return "an image";
+        case FrameBinding::acceleration: return "an acceleration structure";
         default: return "a storage buffer";
     }
 }
@@ -119,6 +125,7 @@ ShaderInterface shaderInterface(std::span<const std::uint32_t> words) {
         if (decorations.contains(kSpecId)) shader.constants.push_back(decorations.at(kSpecId));
     }
     shader.floatAtomics = module.capabilities.contains(kAtomicFloat32AddExt);
+    shader.rayQueries = module.capabilities.contains(kRayQueryKhr);
     shader.shuffles = module.capabilities.contains(kGroupNonUniformShuffle);
     return shader;
 }
@@ -138,6 +145,7 @@ ShaderInterface together(const ShaderInterface& a, const ShaderInterface& b) {
     }
     sum.floatAtomics = a.floatAtomics || b.floatAtomics;
     sum.shuffles = a.shuffles || b.shuffles;
+    sum.rayQueries = a.rayQueries || b.rayQueries;
     return sum;
 }
 
@@ -171,6 +179,7 @@ std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& p
         if (std::find(shader.constants.begin(), shader.constants.end(), constant.id) == shader.constants.end()) line("has no constant " + std::to_string(constant.id));
     }
     if (shader.floatAtomics && !features.floatAtomics) line("needs atomic additions of floats, which are not switched on");
+    if (shader.rayQueries && !features.rayQueries) line("needs ray queries, which are not switched on");
     if (shader.shuffles && features.subgroupSize == 0) line("needs subgroups that can shuffle");
     return lines;
 }

@@ -21,7 +21,7 @@ struct ShaderBinding {
 struct ShaderInterface {
     std::vector<ShaderBinding> bindings;      // of descriptor set 0
     std::vector<std::uint32_t> constants;     // ids of specialisation constants
-    bool floatAtomics = false, shuffles = false;  // needed of the device
+    bool floatAtomics = false, shuffles = false, rayQueries = false;  // needed of the device
 };
 
 // Throws std::runtime_error for words that are no SPIR-V.

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "bindings/vulkan/vulkan_acceleration.h"
 #include "bindings/vulkan/vulkan_device_impl.h"
 #include "bindings/vulkan/vulkan_words.h"
 
@@ -69,6 +70,18 @@ bool hasDiamondLines(const vk::raii::PhysicalDevice& device) {
     return chain.get<vk::PhysicalDeviceLineRasterizationFeaturesEXT>().bresenhamLines;
 }
 
+// Ray queries, and what Vulkan 1.1 lacks for them.
+constexpr const char* kRayQueryExtensions[] = {
+    VK_KHR_RAY_QUERY_EXTENSION_NAME,          VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME,
+    VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME, VK_KHR_SPIRV_1_4_EXTENSION_NAME,              VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME};
+
+bool hasRayQueries(const vk::raii::PhysicalDevice& device) {
+    if (!std::ranges::all_of(kRayQueryExtensions, [&](const char* name) { return hasExtension(device, name); })) return false;
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceRayQueryFeaturesKHR, vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceBufferDeviceAddressFeatures>();
+    return chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery && chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
+           chain.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress;
+}
+
 VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
     VulkanFeatures features;
     const int family = queueFamilyOf(device);
@@ -83,7 +96,7 @@ VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
     const auto& subgroup = chain.get<vk::PhysicalDeviceSubgroupProperties>();
     const bool shuffles = (subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) && (subgroup.supportedOperations & vk::SubgroupFeatureFlagBits::eShuffle);
     features.subgroupSize = shuffles ? subgroup.subgroupSize : 0;
-    features.rayTracingPipelines = hasExtension(device, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    features.rayQueries = hasRayQueries(device);
     return features;
 }
 
@@ -173,6 +186,8 @@ InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule) {
     return wholeBricks ? InjectWay::bricks : InjectWay::bricksPlain;
 }
 
+TraceWay defaultTrace(const VulkanDeviceInfo& info) { return info.features.rayQueries && info.type != "cpu" ? TraceWay::query : TraceWay::walk; }
+
 VulkanDevice::Impl::Impl(const VulkanOptions& options)
     : loader(options.loader), context(loader.entry()), instance(makeInstance(context, options.validate)), physical(chooseDevice(instance, options.device)),
       info(describe(physical)), enabled(info.features), queueFamily(std::uint32_t(queueFamilyOf(physical))),
@@ -197,9 +212,18 @@ VulkanDevice::Impl::Impl(const VulkanOptions& options)
     vk::PhysicalDeviceLineRasterizationFeaturesEXT lines;
     lines.bresenhamLines = true;
     if (enabled.diamondLines) extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+    enabled.rayQueries = options.rayQueries && info.features.rayQueries;
+    vk::PhysicalDeviceBufferDeviceAddressFeatures addresses(true);
+    vk::PhysicalDeviceAccelerationStructureFeaturesKHR accelerations(true);
+    vk::PhysicalDeviceRayQueryFeaturesKHR queries(true);
+    accelerations.pNext = &addresses, queries.pNext = &accelerations;
+    if (enabled.rayQueries) {
+        for (const char* name : kRayQueryExtensions) extensions.push_back(name);
+    }
     void* chain = nullptr;
     if (options.floatAtomics) chain = &atomics;
     if (enabled.diamondLines) lines.pNext = chain, chain = &lines;
+    if (enabled.rayQueries) addresses.pNext = chain, chain = &queries;
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queues({}, queueFamily, 1, &priority);
     device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queues, {}, extensions, nullptr, chain));
@@ -210,6 +234,8 @@ VulkanDevice::VulkanDevice(const VulkanOptions& options) : impl_(inWords([&] { r
 VulkanDevice::~VulkanDevice() = default;
 
 const VulkanDeviceInfo& VulkanDevice::info() const { return impl_->info; }
+
+std::uint64_t VulkanDevice::accelerationBytes(std::uint64_t triangles) const { return accelerationSizes(*impl_, triangles).bytes; }
 
 std::vector<std::string> VulkanDevice::messages() const {
     const std::lock_guard lock(impl_->messageMutex);

@@ -14,7 +14,7 @@ namespace clv {
 struct VulkanFeatures {
     bool floatAtomics = false;       // 32-bit float additions in storage buffers
     std::uint32_t subgroupSize = 0;  // lanes that can shuffle in compute; 0: none can
-    bool rayTracingPipelines = false;
+    bool rayQueries = false;         // of acceleration structures, in compute
     bool draws = false;              // the queue takes passes that draw
     bool blendsFloats = false;       // adds up colours of 32-bit floats in targets
     bool diamondLines = false;       // lines by the diamond-exit rule
@@ -33,6 +33,7 @@ struct VulkanDeviceInfo {
 struct VulkanOptions {
     std::string device{};            // index or part of a name; empty: the first discrete one, else the first
     bool floatAtomics = false;       // switch them on, for shaders that add floats in buffers
+    bool rayQueries = false;         // switch them on where the device has them
     bool validate = false;           // Khronos' validation layer with synchronisation validation; its messages count as errors
     std::string loader{};            // file name of the Vulkan loader's library; empty: the system's
 };
@@ -44,6 +45,10 @@ std::vector<VulkanDeviceInfo> vulkanDevices(const std::string& loader = {});
 // How a device with these features adds up crossings by `rule` (kClvInject...), unless told otherwise.
 InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule = kClvInjectTrackLength);
 
+// How rays find triangles on a device whose ray queries are switched on, where it has any; a processor takes longer with its own than
+// with the walk.
+TraceWay defaultTrace(const VulkanDeviceInfo& info);
+
 class VulkanDevice {
 public:
     // Throws std::runtime_error with one line: no loader, no driver, no device, no such device, a missing feature.
@@ -53,6 +58,8 @@ public:
     VulkanDevice& operator=(const VulkanDevice&) = delete;
 
     const VulkanDeviceInfo& info() const;
+    // What an acceleration structure of so many triangles takes, for LightFrameSettings; ray queries are switched on.
+    std::uint64_t accelerationBytes(std::uint64_t triangles) const;
     // What the validation layer has said so far, a line each.
     std::vector<std::string> messages() const;
 

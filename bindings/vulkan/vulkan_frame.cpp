@@ -62,6 +62,7 @@ struct VulkanFrame::Impl {
         std::vector<VulkanBufferWish> wishes;
         vk::DeviceSize hostBytes = 0, largestRead = 0;
         for (const FrameBuffer& buffer : frame.buffers) {
+            if (buffer.isAcceleration()) requireRayQueries(device);
             VulkanBufferWish wish{.bytes = buffer.bytes, .usage = copied, .image = buffer.image, .imageUsage = copiedImage};
             if (buffer.readBack) wish.use = VulkanMemoryUse::download, largestRead = std::max(largestRead, wish.bytes);
             uploads.push_back({hostBytes, 0});
@@ -83,6 +84,8 @@ struct VulkanFrame::Impl {
         const std::vector<VulkanBuffer> made = makeBuffers(device, own);
         for (auto next = made.begin(); const FrameBuffer& buffer : frame.buffers) {
             buffers.push_back(buffer.source == FrameSource::shared ? lentBuffer(lender, buffer) : *next++);
+            const bool built = buffer.isAcceleration() && buffer.source != FrameSource::shared;
+            if (built) buffers.back().owner->acceleration = makeAcceleration(device, buffer.triangles, buffers.back().buffer, buffer.bytes);
         }
         bool copiesUp = false, copiesDown = false;
         for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -122,7 +125,7 @@ struct VulkanFrame::Impl {
         orderAll(step.commands);
         if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, 0);
         for (std::size_t p = 0; p < description.passes.size(); ++p) {
-            recordPass(step.commands, frame, description, p, step.passes[p], buffers);
+            recordPass(device, step.commands, frame, description, p, step.passes[p], buffers);
             if (timed) step.commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *step.timestamps, std::uint32_t(p + 1));
         }
         orderAll(step.commands);

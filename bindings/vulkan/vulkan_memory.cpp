@@ -114,6 +114,8 @@ std::vector<VulkanBuffer> makeBuffers(const VulkanDevice::Impl& device, std::spa
     }
     for (std::size_t i = 0; i < wishes.size(); ++i) {
         VulkanBuffer::Memory& owner = *buffers[i].owner;
+        const vk::MemoryAllocateFlagsInfo addressed(vk::MemoryAllocateFlagBits::eDeviceAddress);
+        if (wishes[i].usage & vk::BufferUsageFlagBits::eShaderDeviceAddress) allocations[i].pNext = &addressed;
         owner.memory = vk::raii::DeviceMemory(device.device, allocations[i]);
         if (buffers[i].image) {
             owner.image.bindMemory(*owner.memory, 0);

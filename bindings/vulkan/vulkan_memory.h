@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "bindings/vulkan/vulkan_device_impl.h"
+#include "bindings/vulkan/vulkan_acceleration.h"
 #include "clv/plan/frame.h"
 
 namespace clv {
@@ -14,6 +14,7 @@ struct VulkanBuffer {
         vk::raii::DeviceMemory memory = nullptr;
         vk::raii::Buffer buffer = nullptr;
         vk::raii::Image image = nullptr;
+        VulkanAcceleration acceleration;  // in the buffer, of one that holds an acceleration structure
     };
     std::shared_ptr<Memory> owner;
     vk::Buffer buffer;            // one of these is null

@@ -48,10 +48,15 @@ struct Stages {
 void bind(const VulkanDevice::Impl& device, const FrameBuffer& description, const FrameUse& use, const VulkanBuffer& buffer, VulkanPass& made) {
     const vk::DescriptorBufferInfo whole(buffer.buffer, 0, VK_WHOLE_SIZE);
     vk::DescriptorImageInfo image;
+    vk::WriteDescriptorSetAccelerationStructureKHR acceleration;
     vk::WriteDescriptorSet write(*made.set, description.binding, 0, 1, descriptorType(use.binding), &image, &whole);
     if (use.binding == FrameBinding::texel) {
         made.views.emplace_back(device.device, vk::BufferViewCreateInfo({}, buffer.buffer, vulkanFormat(use.format), 0, VK_WHOLE_SIZE));
         write.pTexelBufferView = &*made.views.back();
+    }
+    if (use.binding == FrameBinding::acceleration) {
+        acceleration.setAccelerationStructures(*buffer.owner->acceleration.top);
+        write.pNext = &acceleration;
     }
     if (use.binding == FrameBinding::image) {
         const std::uint32_t layers = description.image.shape == FrameShape::volume ? 1 : description.image.extent.z;
@@ -114,7 +119,7 @@ VulkanPass makePass(const VulkanDevice::Impl& device, const Frame& frame, const 
     return made;
 }
 
-void recordPass(const vk::raii::CommandBuffer& commands, const Frame& frame, const FrameStep& step, std::size_t p, const VulkanPass& made, std::span<const VulkanBuffer> buffers) {
+void recordPass(const VulkanDevice::Impl& device, const vk::raii::CommandBuffer& commands, const Frame& frame, const FrameStep& step, std::size_t p, const VulkanPass& made, std::span<const VulkanBuffer> buffers) {
     const FramePass& pass = step.passes[p];
     for (const FrameBarrier& barrier : pass.barriers) {
         const FramePass& earlier = step.passes[barrier.after];
@@ -125,6 +130,10 @@ void recordPass(const vk::raii::CommandBuffer& commands, const Frame& frame, con
             const vk::BufferMemoryBarrier memory(before, after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, buffers[barrier.buffer].buffer, 0, VK_WHOLE_SIZE);
             commands.pipelineBarrier(stageOf(earlier), stageOf(pass), {}, {}, memory, {});
         }
+    }
+    if (pass.builds()) {
+        const VulkanBuffer& structure = buffers[pass.uses[1].buffer];
+        return recordBuild(device, commands, frame.buffers[pass.uses[1].buffer].triangles, buffers[pass.uses[0].buffer].buffer, structure.buffer, structure.owner->acceleration);
     }
     if (pass.shader.empty()) return recordClear(commands, frame.buffers[pass.uses[0].buffer], buffers[pass.uses[0].buffer]);
     const vk::PipelineBindPoint point = pass.draws() ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;

@@ -21,12 +21,12 @@ struct VulkanPass {
 // Descriptors of all passes; null where no pass has any.
 vk::raii::DescriptorPool makeDescriptorPool(const VulkanDevice::Impl& device, const Frame& frame);
 
-// A pass without a shader has no objects. Throws std::runtime_error where a shader does not match.
+// A pass without a shader has no objects of its own. Throws std::runtime_error where a shader does not match.
 VulkanPass makePass(const VulkanDevice::Impl& device, const Frame& frame, const FramePass& pass, std::span<const VulkanBuffer> buffers,
                     const vk::raii::DescriptorPool& descriptors, ShaderLanguage language);
 
 // Pass `p` of the step, behind its barriers.
-void recordPass(const vk::raii::CommandBuffer& commands, const Frame& frame, const FrameStep& step, std::size_t p, const VulkanPass& made, std::span<const VulkanBuffer> buffers);
+void recordPass(const VulkanDevice::Impl& device, const vk::raii::CommandBuffer& commands, const Frame& frame, const FrameStep& step, std::size_t p, const VulkanPass& made, std::span<const VulkanBuffer> buffers);
 
 // Sets the buffer or image to 0.
 void recordClear(const vk::raii::CommandBuffer& commands, const FrameBuffer& description, const VulkanBuffer& buffer);

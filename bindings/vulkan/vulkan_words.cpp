@@ -19,14 +19,20 @@ vk::DescriptorType descriptorType(FrameBinding binding) {
         case FrameBinding::uniform: return vk::DescriptorType::eUniformBuffer;
         case FrameBinding::texel: return vk::DescriptorType::eUniformTexelBuffer;
         case FrameBinding::image: return vk::DescriptorType::eSampledImage;
+        case FrameBinding::acceleration: return vk::DescriptorType::eAccelerationStructureKHR;
         default: return vk::DescriptorType::eStorageBuffer;
     }
 }
+
+// Of what a build reads or works in.
+constexpr vk::BufferUsageFlags kBuildUsage = vk::BufferUsageFlagBits::eAccelerationStructureBuildInputReadOnlyKHR | vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eStorageBuffer;
 
 vk::BufferUsageFlags bufferUsage(FrameBinding binding) {
     switch (binding) {
         case FrameBinding::uniform: return vk::BufferUsageFlagBits::eUniformBuffer;
         case FrameBinding::arguments: return vk::BufferUsageFlagBits::eIndirectBuffer;
+        case FrameBinding::acceleration: return vk::BufferUsageFlagBits::eAccelerationStructureStorageKHR | kBuildUsage;
+        case FrameBinding::corners: return kBuildUsage;
         // A frame that shares the buffer may use it the other way.
         default: return vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
@@ -42,12 +48,14 @@ vk::ImageAspectFlags imageAspect(const FrameImage& image) {
 }
 
 vk::PipelineStageFlags stageOf(const FramePass& pass) {
+    if (pass.builds()) return vk::PipelineStageFlagBits::eAccelerationStructureBuildKHR | vk::PipelineStageFlagBits::eTransfer;
     if (pass.shader.empty()) return vk::PipelineStageFlagBits::eTransfer;
     return pass.draws() ? vk::PipelineStageFlagBits::eAllGraphics : vk::PipelineStageFlagBits::eComputeShader;
 }
 
 vk::AccessFlags accessTo(const Frame& frame, const FramePass& pass, std::uint32_t buffer) {
     using Access = vk::AccessFlagBits;
+    if (pass.builds()) return buffer == pass.uses[0].buffer ? vk::AccessFlags(Access::eShaderRead) : Access::eAccelerationStructureWriteKHR | Access::eTransferWrite;
     if (pass.shader.empty()) return Access::eTransferWrite;
     vk::AccessFlags flags;
     for (const FrameUse& use : pass.uses) {
@@ -58,6 +66,8 @@ vk::AccessFlags accessTo(const Frame& frame, const FramePass& pass, std::uint32_
             flags |= isDepth ? Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite : Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
         } else if (use.binding == FrameBinding::arguments) {
             flags |= Access::eIndirectCommandRead;
+        } else if (use.binding == FrameBinding::acceleration) {
+            flags |= Access::eAccelerationStructureReadKHR;
         } else {
             if (frameReads(use.access)) flags |= use.binding == FrameBinding::uniform ? Access::eUniformRead : Access::eShaderRead;
             if (frameWrites(use.access)) flags |= Access::eShaderWrite;

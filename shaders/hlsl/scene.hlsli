@@ -1,2 +1,2 @@
-// What a ray meets. The entry point includes before: surface.hlsli or textured_surface.hlsli.
-ClvHit sceneHit(ClvRay ray) { return surfaceHit(clvTraceBvh(ray.origin, ray.direction, ray.maxDistance), ray.direction); }
+// What a ray meets. The entry point includes before: bvh.hlsli, and surface.hlsli or textured_surface.hlsli.
+ClvHit sceneHit(ClvRay ray) { return surfaceHit(nearestTriangle(ray.origin, ray.direction, ray.maxDistance), ray.direction); }

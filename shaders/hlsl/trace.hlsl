@@ -10,5 +10,5 @@
 void main(uint3 thread : SV_DispatchThreadID) {
     uint i = clvItem(thread);
     if (i >= frame.rayCount) return;
-    rays[i].maxDistance = clvTraceBvh(rays[i].origin, rays[i].direction, rays[i].maxDistance).distance;
+    rays[i].maxDistance = nearestTriangle(rays[i].origin, rays[i].direction, rays[i].maxDistance).distance;
 }

@@ -20,7 +20,8 @@ TEST(Info, listsTheVulkanDevicesAndTheirPaths) {
     EXPECT_FALSE(report.contains("vulkan_missing"));
     EXPECT_EQ(report.at("backends"), Json({"cpu", "vulkan"}));
     ASSERT_FALSE(report.at("vulkan_devices").empty()) << "these tests need a Vulkan device, mesa-vulkan-drivers for one";
-    const std::set<std::string> types{"discrete", "integrated", "virtual", "cpu", "other"}, ways{"bricks", "bricks without subgroups", "float atomics", "fixed point"};
+    const std::set<std::string> types{"discrete", "integrated", "virtual", "cpu", "other"}, ways{"bricks", "bricks without subgroups", "float atomics", "fixed point"},
+        traces{"bvh in compute", "ray queries in compute"};
     std::size_t index = 0;
     for (const Json& device : report["vulkan_devices"]) {
         EXPECT_EQ(device.at("index"), index++);
@@ -31,7 +32,7 @@ TEST(Info, listsTheVulkanDevicesAndTheirPaths) {
         EXPECT_GT(device.at("memory_mib"), 0);
         EXPECT_GE(device.at("subgroup_size"), 0);
         EXPECT_TRUE(ways.contains(device.at("inject")));
-        EXPECT_EQ(device.at("trace"), "bvh in compute");
+        EXPECT_TRUE(traces.contains(device.at("trace")));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "clv/plan/frame_check.h"
+#include "clv/plan/triangle_corners.h"
 
 using namespace clv;
 
@@ -135,6 +136,57 @@ TEST(FrameCheck, findsWorkThatADeviceDoesNotTake) {
     expectFault([](Frame&) {}, "count uses constants of 64 bytes, more than 63", {.uniformBytes = 63});
     expectFault([](Frame& f) { f.steps[1].passes[0].uses = {writes(4)}; }, "merge uses history of 4096 bytes, more than 4095", {.storageBytes = 4095});
     expectFault([](Frame&) {}, "count uses rows of 64 elements, more than 63", {.texelElements = 63});
+}
+
+// Builds an acceleration structure of four triangles, and searches it.
+Frame buildingFrame() {
+    Frame frame;
+    frame.buffers = {{"corners", 0, 4 * kFrameCornerBytes, FrameSource::host}, {"structure", 1, 1000, FrameSource::passes}, {"result", 2, 256, FrameSource::passes, true}};
+    frame.buffers[1].triangles = 4;
+    frame.steps = {{"scene", {{"build", "", {}, {{0, FrameBinding::corners}, {1, FrameBinding::acceleration, FrameAccess::write}}, uvec3(1), {}},
+                              {"search", "search", {}, {{1, FrameBinding::acceleration}, writes(2)}, uvec3(1), {}}}}};
+    addBarriers(frame);
+    return frame;
+}
+
+TEST(Building, isFreeOfFaultsAndWaitedFor) {
+    const Frame frame = buildingFrame();
+    EXPECT_EQ(checkFrame(frame, {.storageBytes = 999}), std::vector<std::string>());
+    ASSERT_EQ(frame.steps[0].passes[1].barriers.size(), 1u);
+    EXPECT_EQ(frame.steps[0].passes[1].barriers[0].buffer, 1u);
+    EXPECT_TRUE(frame.steps[0].passes[0].builds());
+    EXPECT_FALSE(frame.steps[0].passes[1].builds());
+}
+
+TEST(Building, needsCornersAndAStructure) {
+    const auto expect = [](const std::function<void(Frame&, std::vector<FramePass>&)>& breakIt, const std::string& words) {
+        Frame frame = buildingFrame();
+        breakIt(frame, frame.steps[0].passes);
+        const std::vector<std::string> faults = checkFrame(frame);
+        EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const std::string& fault) { return fault.find(words) != std::string::npos; })) << words;
+    };
+    expect([](Frame&, auto& passes) { passes[1].barriers.clear(); }, "search has no barrier for structure after build");
+    expect([](Frame&, auto& passes) { passes.erase(passes.begin()); }, "search reads structure, which nothing has written");
+    expect([](Frame& f, auto&) { f.buffers[0].bytes -= 4; }, "build has no corners for some of its triangles");
+    expect([](Frame&, auto& passes) { passes[0].uses[0] = reads(0); }, "build has no shader: it must read corners and write an acceleration structure");
+    expect([](Frame&, auto& passes) { passes[0].uses.pop_back(); }, "build has no shader");
+    expect([](Frame&, auto& passes) { passes[0].uses.erase(passes[0].uses.begin()); }, "build has no shader");
+    expect([](Frame& f, auto&) { f.buffers[1].triangles = 0; }, "uses structure as an acceleration structure");
+    expect([](Frame&, auto& passes) { passes[1].uses[0] = reads(1); }, "search uses structure as a buffer");
+    expect([](Frame&, auto& passes) { passes[1].uses[0].access = FrameAccess::readWrite; }, "search writes structure through a read-only view");
+    expect([](Frame&, auto& passes) { passes[1].uses.push_back({0, FrameBinding::corners}); }, "search binds corners to a shader");
+    expect([](Frame& f, auto&) { f.buffers[1].source = FrameSource::host; }, "structure is not built by a pass, or is read as data");
+    expect([](Frame& f, auto&) { f.buffers[1].readBack = true; }, "structure is not built by a pass, or is read as data");
+}
+
+TEST(Building, takesCornersInTheOrderOfTheTriangles) {
+    const std::vector<vec4> rows{vec4(1, 2, 3, 7), vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(4, 5, 6, 8), vec4(0, 0, 2, 0), vec4(3, 0, 0, 0)};
+    const std::vector<vec3> two{vec3(1, 2, 3), vec3(2, 2, 3), vec3(1, 3, 3), vec3(4, 5, 6), vec3(4, 5, 8), vec3(7, 5, 6)};
+    EXPECT_EQ(triangleCorners(rows, 2), two);
+    std::vector<vec3> padded = two;
+    padded.resize(9, two[0]);
+    EXPECT_EQ(triangleCorners(rows, 3), padded);
+    EXPECT_EQ(triangleCorners({}, 1), std::vector<vec3>(3, vec3(0.0f)));
 }
 
 // Draws three layers into two volumes and depths, by lines whose number a pass has counted, and reads what was drawn.

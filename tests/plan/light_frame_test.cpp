@@ -101,6 +101,25 @@ TEST(LightFrame, drawsItsMapsWhereItHasFaces) {
     }
 }
 
+// Ray queries need what a step of its own has built, and no tree.
+TEST(LightFrame, buildsWhatItsRayQueriesSearch) {
+    LightFrameSettings settings = smallSettings();
+    settings.trace = TraceWay::query, settings.accelerationBytes = 5120;
+    for (const bool keepHits : {false, true}) {
+        settings.keepHits = keepHits;
+        const Frame frame = lightFrame(settings);
+        EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
+        EXPECT_EQ(passesOf(frame, "scene"), std::vector<std::string>{"build"});
+        EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"rsm", "texel rows", "texel columns"}));
+        EXPECT_FALSE(has(frame, "bvh boxes") || has(frame, "bvh children"));
+        EXPECT_EQ(frame.buffers[frame.bufferIndex("acceleration")].triangles, 100u);
+        EXPECT_EQ(frame.bytes() + 40 * (kClvBvhBoxRows * sizeof(vec4) + sizeof(uvec4)),
+                  lightFrame([&] { LightFrameSettings walks = settings; walks.trace = TraceWay::walk; return walks; }()).bytes() + 5120 + 100 * kFrameCornerBytes);
+    }
+    settings.accelerationBytes = 0;
+    EXPECT_EQ(checkFrame(lightFrame(settings)), std::vector<std::string>{"buffer acceleration has no bytes"});
+}
+
 TEST(LightFrame, hasTheStagesInTheirOrder) {
     const Frame frame = lightFrame(smallSettings(InjectWay::fixedPoint));
     EXPECT_EQ(passesOf(frame, "rsm"), (std::vector<std::string>{"rsm", "texel rows", "texel columns"}));

@@ -24,6 +24,7 @@ std::string needsOf(const ShaderCode& shader) {
     const ShaderInterface needs = shaderInterface(shader.words);
     std::string words;
     if (needs.floatAtomics) words = "float atomics";
+    if (needs.rayQueries) words += words.empty() ? "ray queries" : ", ray queries";
     if (needs.shuffles) words += words.empty() ? "subgroup shuffles" : ", subgroup shuffles";
     return words;
 }
@@ -99,6 +100,23 @@ TEST_F(Portability, floatAtomicsAreOfGlslAlone) {
         ASSERT_TRUE(translates(kMetal, "shader.metal")) << nameOf(shader) << ": " << log_;
         EXPECT_NE(readText(file("shader.metal")).find("= atomicAdd("), std::string::npos) << nameOf(shader) << " could lose its row in docs/gpu.md";
     }
+}
+
+// glslang's HLSL knows no RayQuery, but SPIRV-Cross writes it.
+TEST_F(Portability, rayQueriesBecomeMetal24AndShaderModel65) {
+    int found = 0;
+    for (const ShaderCode& shader : shaderCodes()) {
+        if (needsOf(shader) != "ray queries") continue;
+        EXPECT_EQ(shader.language, ShaderLanguage::glsl) << nameOf(shader);
+        writeSpirv(shader);
+        ASSERT_TRUE(translates("--hlsl --shader-model 65", "shader.hlsl")) << nameOf(shader) << ": " << log_;
+        EXPECT_NE(readText(file("shader.hlsl")).find(".TraceRayInline("), std::string::npos) << nameOf(shader);
+        EXPECT_FALSE(translates(kMetal, "shader.metal")) << nameOf(shader) << " could do with less than Metal 2.4";
+        ASSERT_TRUE(translates("--msl --msl-version 20400", "shader.metal")) << nameOf(shader) << ": " << log_;
+        EXPECT_NE(readText(file("shader.metal")).find("intersection_query<"), std::string::npos) << nameOf(shader);
+        ++found;
+    }
+    EXPECT_GT(found, 0);
 }
 
 // Rows of the table in docs/gpu.md: shader -> what GLSL needs, what HLSL needs.

@@ -89,6 +89,42 @@ TEST(VulkanTrace, framesWithoutTexturesBindNone) {
     EXPECT_TRUE(bindsTextures(lightFrame(settings)));
 }
 
+// Ray queries find the triangles that the walk finds, in what the device has built of them; it must have queries, as not all have.
+TEST(VulkanTrace, queriesFindWhatTheWalkFinds) {
+    if (!VulkanDevice().info().features.rayQueries) GTEST_SKIP() << "this device has no ray queries";
+    for (const bool keepHits : {false, true}) {
+        for (const char* name : {"cornell", "two_rooms", "atrium", "painted"}) {
+            SCOPED_TRACE(name);
+            TracedScene traced(name == std::string("painted") ? paintedCornell() : makeBuiltinScene(name), kSide, kRays, keepHits);
+            const TracedScene::Results walked = traced.run(ShaderLanguage::glsl);
+            traced.traceByQueries();
+            const TracedScene::Results queried = traced.run(ShaderLanguage::glsl);
+            // Rays through an edge may meet either of two triangles, or pass between them in one of the two.
+            std::size_t texels = 0, rays = 0, hits = 0;
+            for (std::size_t i = 0; i < walked.texels.size(); ++i) texels += std::memcmp(&walked.texels[i], &queried.texels[i], sizeof(ClvRsmTexel)) != 0;
+            for (std::size_t i = 0; i < walked.rays.size(); ++i) rays += walked.rays[i].maxDistance != queried.rays[i].maxDistance;
+            for (std::size_t i = 0; i < walked.hits.size(); ++i) hits += std::memcmp(&walked.hits[i], &queried.hits[i], sizeof(ClvHit)) != 0;
+            EXPECT_EQ(texels, 0u);
+            EXPECT_EQ(rays, 0u);
+            EXPECT_EQ(hits, 0u);
+            EXPECT_EQ(traced.device.messages(), std::vector<std::string>());
+        }
+    }
+}
+
+TEST(VulkanTrace, queriesAreRefusedWhereTheyAreNotSwitchedOn) {
+    LightFrameSettings settings = TracedScene(makeBuiltinScene("cornell"), kSide, kRays, false).settings;
+    settings.trace = TraceWay::query, settings.accelerationBytes = 1 << 20;
+    VulkanDevice device({.validate = true});
+    try {
+        VulkanFrame frame(device, lightFrame(settings));
+        ADD_FAILURE() << "no error";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find(" ray queries"), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(device.messages(), std::vector<std::string>());
+}
+
 TEST(VulkanTrace, deadRaysStayDead) {
     // No light sends anything: all rays are dead.
     Scene scene = makeBuiltinScene("cornell");

@@ -9,6 +9,7 @@
 #include "clv/cpu/ray_guide.h"
 #include "clv/plan/light_frame.h"
 #include "clv/plan/map_faces.h"
+#include "clv/plan/triangle_corners.h"
 #include "support/scene_reader.h"
 
 namespace clv::test {
@@ -23,7 +24,7 @@ struct TracedScene {
     ClvFrame constants{};
     LightFrameSettings settings;
     std::optional<RayGuide> guide;
-    VulkanDevice device{{.device = "", .floatAtomics = true, .validate = true}};
+    VulkanDevice device{{.device = "", .floatAtomics = true, .rayQueries = true, .validate = true}};
 
     TracedScene(Scene source, std::uint32_t side, std::uint32_t rays, bool keepHits)
         : scene(std::move(source)), embree(scene), bvh(buildBvh(scene)), rows(surfaceRowsOf(scene)) {
@@ -48,13 +49,24 @@ struct TracedScene {
         settings.faceSide = constants.faceSide = faceSide;
     }
 
+    // Rays find triangles by the device's ray queries.
+    void traceByQueries() {
+        settings.trace = TraceWay::query;
+        settings.accelerationBytes = device.accelerationBytes(settings.triangles);
+    }
+
     SceneReader reader() const { return {bvh, rows}; }
 
     void uploadScene(VulkanFrame& vulkan) const {
         vulkan.upload("frame", constants);
         if (settings.lights > 0) vulkan.upload("lights", std::span<const ClvLight>(lights));
-        vulkan.upload("bvh boxes", std::span<const vec4>(bvh.boxes));
-        vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
+        if (settings.trace == TraceWay::walk) {
+            vulkan.upload("bvh boxes", std::span<const vec4>(bvh.boxes));
+            vulkan.upload("bvh children", std::span<const uvec4>(bvh.children));
+        } else {
+            vulkan.upload("corners", std::span<const vec3>(triangleCorners(bvh.triangles, settings.triangles)));
+            vulkan.run("scene");
+        }
         vulkan.upload("triangles", std::span<const vec4>(bvh.triangles));
         vulkan.upload("surfaces", std::span<const vec4>(rows.surfaces));
         if (!faces.empty()) vulkan.upload("map faces", std::span<const ClvMapFace>(faces));
@@ -78,7 +90,7 @@ struct TracedScene {
     // `emitters`: in place of maps, where the settings say so.
     Results run(ShaderLanguage language, std::span<const ClvRsmTexel> emitters = {}) {
         Frame frame = lightFrame(settings);
-        for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || (buffer.source == FrameSource::passes && !buffer.isImage());
+        for (FrameBuffer& buffer : frame.buffers) buffer.readBack = buffer.readBack || (buffer.source == FrameSource::passes && !buffer.isImage() && !buffer.isAcceleration());
         VulkanFrame vulkan(device, frame, language);
         uploadScene(vulkan);
         if (settings.emitters > 0) vulkan.upload("texels", emitters);

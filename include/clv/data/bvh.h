@@ -19,6 +19,9 @@ CLV_CONST uint kClvNoChild = 0x80000000u;      // a leaf of no triangles
 // upper 16 bits of its index in the scene, as numbers, since texel buffers may not keep the bits of every float.
 CLV_CONST uint kClvTriangleRows = 3u;
 
+// Index of a triangle in the scene, from the w of its first two rows.
+CLV_FN uint clvSceneIndexOf(float lower, float upper) { return uint(lower) | (uint(upper) << 16); }
+
 CLV_FN uint clvBvhLeaf(uint firstTriangle, uint count) { return kClvBvhLeafBit | (firstTriangle << kClvBvhCountBits) | count; }
 CLV_FN uint clvBvhLeafFirst(uint child) { return (child & ~kClvBvhLeafBit) >> kClvBvhCountBits; }
 CLV_FN uint clvBvhLeafCount(uint child) { return child & ((1u << kClvBvhCountBits) - 1u); }

@@ -82,6 +82,10 @@
 #define CLV_BIND_PICTURE 47        // ClvPicture
 #define CLV_BIND_RADIANCE 48       // vec4[width * height], row by row from the top: W/(m^2 sr), and 1 where a surface is seen
 
+// What ray queries walk.
+#define CLV_BIND_ACCELERATION 49   // acceleration structure: the triangles in the order of CLV_BIND_TRIANGLES
+#define CLV_BIND_CORNERS 50        // float[triangles * 9]: it is built from these; no shader has them
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour

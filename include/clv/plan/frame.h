@@ -32,16 +32,18 @@ struct FrameImage {
     uvec3 extent{0};            // texels along x and y, layers
 };
 
-// A buffer, or an image where that has a format.
+// A buffer, or an image where that has a format, or an acceleration structure where it has triangles.
 struct FrameBuffer {
     std::string name;           // unique in the frame
     std::uint32_t binding = 0;  // CLV_BIND_...
-    std::uint64_t bytes = 0;    // > 0
+    std::uint64_t bytes = 0;    // > 0; of an acceleration structure with all that building it takes, as the graphics API says
     FrameSource source = FrameSource::passes;  // images are never the host's
     bool readBack = false;      // the host reads it between frames
     FrameImage image{};
+    std::uint64_t triangles = 0;  // of an acceleration structure for ray queries, which a pass builds
 
     bool isImage() const { return image.format != FrameFormat::none; }
+    bool isAcceleration() const { return triangles > 0; }
 };
 
 enum class FrameAccess { read, write, readWrite };
@@ -52,6 +54,8 @@ enum class FrameBinding {
     image,      // read texel by texel, without a filter
     target,     // drawn into: colours in the order of the fragment shader's outputs, and at most one image of depths
     arguments,  // how much each draw draws: see FrameRaster
+    acceleration,  // an acceleration structure: read by ray queries, written by the pass that builds it
+    corners,       // what an acceleration structure is built from: kFrameCornerBytes a triangle
 };
 
 // What becomes of the colour that a target holds.
@@ -87,9 +91,12 @@ enum class FrameTopology { none, triangles, lines };
 // Positions are in Direct3D's clip space, y up, depth from 0 to 1; the largest depth wins, and depths begin with 0, the farthest.
 // Lines are one texel wide and follow the diamond-exit rule where the API knows it; see shaders that draw any.
 struct FrameRaster {
-    FrameTopology topology = FrameTopology::none;  // none: the pass is dispatched or clears
+    FrameTopology topology = FrameTopology::none;  // none: the pass does not draw
     std::uint32_t vertices = 0;                    // of each draw; 0: by the record of the layer in the buffer of arguments
 };
+
+// Three corners of three floats, m.
+inline constexpr std::uint64_t kFrameCornerBytes = 36;
 
 // A record in a buffer of arguments, as Vulkan, Direct3D and WebGPU have it.
 struct FrameDrawArguments {
@@ -98,14 +105,16 @@ struct FrameDrawArguments {
 
 struct FramePass {
     std::string name;                      // for people and timings
-    std::string shader;                    // name of a file in shaders/glsl and shaders/hlsl, without its ending; empty: clear
+    std::string shader;                    // name of a file in shaders/glsl and shaders/hlsl, without its ending; empty: clear or build
     std::vector<FrameConstant> constants;
-    std::vector<FrameUse> uses;            // a pass without a shader sets its one buffer to 0
+    std::vector<FrameUse> uses;            // a pass without a shader sets its one buffer to 0, or builds an acceleration structure
     uvec3 groups{1, 1, 1};                 // work groups
     std::vector<FrameBarrier> barriers;    // see addBarriers
     FrameRaster raster{};                  // draws use the vertex and the fragment shader of the name
 
     bool draws() const { return raster.topology != FrameTopology::none; }
+    // An acceleration structure: one level of opaque triangles, in the order of their corners, and one instance of it, as it is.
+    bool builds() const { return shader.empty() && uses.size() == 2; }
 };
 
 // Passes that run one after another. A step begins when everything before it is over.
@@ -150,7 +159,7 @@ inline FrameBuffer frameImage(const std::string& name, std::uint32_t binding, co
 inline bool frameReads(FrameAccess access) { return access != FrameAccess::write; }
 inline bool frameWrites(FrameAccess access) { return access != FrameAccess::read; }
 
-// Names of the pass's shaders: the vertex and the fragment shader of one that draws, none of one that clears.
+// Names of the pass's shaders: the vertex and the fragment shader of one that draws, none of one that clears or builds.
 inline std::vector<std::string> frameShaders(const FramePass& pass) {
     if (pass.draws()) return {pass.shader + ".vert", pass.shader + ".frag"};
     return pass.shader.empty() ? std::vector<std::string>() : std::vector{pass.shader};

@@ -56,6 +56,9 @@ private:
             if (buffer.bytes == 0) fault("buffer " + buffer.name + " has no bytes");
             if (buffer.bytes % 4 != 0) fault("buffer " + buffer.name + " is no whole number of words of 4 bytes");
             if (buffer.isImage()) checkImage(buffer);
+            if (buffer.isAcceleration() && (buffer.isImage() || buffer.readBack || (buffer.source != FrameSource::passes && buffer.source != FrameSource::shared))) {
+                fault("acceleration structure " + buffer.name + " is not built by a pass, or is read as data");
+            }
             filled_[i] = buffer.source != FrameSource::passes;
             wanted_[i] = buffer.readBack;
         }
@@ -77,7 +80,10 @@ private:
         const std::uint32_t most = std::max({pass.groups.x, pass.groups.y, pass.groups.z});
         if (std::min({pass.groups.x, pass.groups.y, pass.groups.z}) == 0) fault("pass " + pass.name + " has no work groups");
         if (most > limits_.groups) fault("pass " + pass.name + " has " + std::to_string(most) + " work groups along an axis, more than " + std::to_string(limits_.groups));
-        if (pass.shader.empty() && (pass.uses.size() != 1 || pass.uses[0].access != FrameAccess::write)) {
+        const bool clears = pass.uses.size() == 1 && pass.uses[0].access == FrameAccess::write && pass.uses[0].binding != FrameBinding::acceleration;
+        if (pass.builds()) {
+            checkBuild(pass);
+        } else if (pass.shader.empty() && !clears) {
             fault("pass " + pass.name + " has no shader: it must write one buffer and read none");
         }
         std::set<std::uint32_t> ids, bindings;
@@ -95,6 +101,16 @@ private:
         }
         if (storage > limits_.storageBuffers) fault("pass " + pass.name + " has " + std::to_string(storage) + " storage buffers, more than " + std::to_string(limits_.storageBuffers));
         checkDraws(pass);
+    }
+
+    // From what, and for how many triangles.
+    void checkBuild(const FramePass& pass) {
+        const FrameUse &from = pass.uses[0], &to = pass.uses[1];
+        const bool right = from.binding == FrameBinding::corners && from.access == FrameAccess::read && to.binding == FrameBinding::acceleration && to.access == FrameAccess::write;
+        if (!right) fault("pass " + pass.name + " has no shader: it must read corners and write an acceleration structure");
+        if (right && isDeclared(from) && isDeclared(to) && frame_.buffers[from.buffer].bytes < frame_.buffers[to.buffer].triangles * kFrameCornerBytes) {
+            fault("pass " + pass.name + " has no corners for some of its triangles");
+        }
     }
 
     // What a pass draws into, and how much.
@@ -136,6 +152,9 @@ private:
         const bool isTarget = use.binding == FrameBinding::target;
         if (use.binding != FrameBinding::storage && !isTarget && !pass.shader.empty() && frameWrites(use.access)) fault("pass " + pass.name + " writes " + buffer.name + " through a read-only view");
         if (isTarget && !frameWrites(use.access)) fault("pass " + pass.name + " only reads its target " + buffer.name);
+        const bool isAcceleration = use.binding == FrameBinding::acceleration;
+        if (buffer.isAcceleration() != isAcceleration) fault("pass " + pass.name + " uses " + buffer.name + (isAcceleration ? " as an acceleration structure" : " as a buffer"));
+        if (use.binding == FrameBinding::corners && !pass.builds()) fault("pass " + pass.name + " binds corners to a shader");
         if (buffer.isImage() != (isTarget || use.binding == FrameBinding::image)) fault("pass " + pass.name + " uses " + buffer.name + (buffer.isImage() ? " as a buffer" : " as an image"));
         if (use.binding == FrameBinding::arguments && buffer.bytes < frameLayers(frame_, pass) * sizeof(FrameDrawArguments)) fault("pass " + pass.name + " has no arguments for some of its draws");
         if ((use.binding == FrameBinding::texel) != (use.format != FrameFormat::none)) fault("pass " + pass.name + " uses " + buffer.name + " with a format where it has none, or without");
@@ -155,7 +174,7 @@ private:
     void checkSize(const FramePass& pass, const FrameBuffer& buffer, const FrameUse& use) {
         std::uint64_t size = buffer.bytes, most = limits_.storageBytes;
         const char* unit = " bytes";
-        if (buffer.isImage()) return;  // see checkImage
+        if (buffer.isImage() || buffer.isAcceleration()) return;  // see checkImage; structures know other limits
         if (use.binding == FrameBinding::uniform) most = limits_.uniformBytes;
         if (use.format != FrameFormat::none) {
             size = buffer.bytes / frameFormatBytes(use.format), most = limits_.texelElements, unit = " elements";

@@ -36,6 +36,12 @@ enum class InjectWay {
     slices,        // as the thesis did it: lines drawn into slices; kClvInjectThesis and kClvStorageCube alone, and all slots of a cell get its light
 };
 
+// How rays find the nearest triangle.
+enum class TraceWay {
+    walk,   // through the tree of data/bvh.h, in the shader
+    query,  // ray queries of the graphics API in an acceleration structure of its own; GLSL alone
+};
+
 inline bool gathers(InjectWay way) { return way == InjectWay::bricks || way == InjectWay::bricksPlain; }
 
 struct LightFrameLevel {
@@ -60,6 +66,8 @@ struct LightFrameSettings {
     std::uint32_t rule = kClvInjectTrackLength;
     std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
     bool movingLights = false;         // history gives way by dynamicity, not by ClvLevelFrame::weight; InjectWay::floatAtomics and fixedPoint alone
+    TraceWay trace = TraceWay::walk;
+    std::uint64_t accelerationBytes = 0;  // of TraceWay::query: what the graphics API wants for an acceleration structure of the triangles
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
     FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float where a device cannot add up 32 bits
@@ -182,12 +190,11 @@ private:
     // The steps that end with this frame's rays, cut.
     void addRays(std::uint32_t frame, std::uint32_t rays) {
         const std::uint64_t rows = s_.emitters > 0 ? s_.emitters / s_.rsmSide : s_.lights * s_.rsmSide, texels = rows * s_.rsmSide;
-        const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
-        const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
         const auto triangles = add("triangles", CLV_BIND_TRIANGLES, s_.triangles * kClvTriangleRows * sizeof(vec4), FrameSource::host);
         const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), s_.emitters > 0 ? FrameSource::host : FrameSource::passes);
         const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
-        const Uses tree{texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+        const Uses tracing = addTracing(triangles);
+        const std::string query = s_.trace == TraceWay::query ? "_query" : "";
         Uses surfaces;
         std::string textured;
         const auto bindSurfaces = [&] {
@@ -208,7 +215,7 @@ private:
         }
 
         begin("rsm");
-        if (s_.emitters == 0) addMaps(frame, texelBuffer, triangles, tree, surfaces, textured);
+        if (s_.emitters == 0) addMaps(frame, texelBuffer, triangles, tracing, surfaces, textured, query);
         pass("texel rows", "texel_rows" + guided, groupsFor(rows * CLV_GROUP_SIZE), with({uniform(frame), read(texelBuffer), write(sums)}, guide));
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
@@ -216,18 +223,33 @@ private:
         pass("rays", "rays" + guided, groupsFor(s_.rays), with({uniform(frame), read(texelBuffer), read(sums), write(rays)}, guide));
         if (s_.keepHits) {
             const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
-            pass("trace", "trace_hits" + textured, groupsFor(s_.rays), with(with({uniform(frame), readWrite(rays), write(hits)}, tree), surfaces));
+            pass("trace", "trace_hits" + textured + query, groupsFor(s_.rays), with(with({uniform(frame), readWrite(rays), write(hits)}, tracing), surfaces));
         } else {
-            pass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tree));
+            pass("trace", "trace" + query, groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tracing));
         }
     }
 
-    // The maps of the lights: traced through the tree, or drawn and then coloured by the surfaces that are seen.
-    void addMaps(std::uint32_t frame, std::uint32_t texels, std::uint32_t triangles, const Uses& tree, const Uses& surfaces, const std::string& textured) {
+    // What a shader needs to find the nearest triangle. An acceleration structure has a step of its own, which builds it.
+    Uses addTracing(std::uint32_t triangles) {
+        if (s_.trace == TraceWay::walk) {
+            const auto boxes = add("bvh boxes", CLV_BIND_BVH_BOXES, s_.bvhNodes * kClvBvhBoxRows * sizeof(vec4), FrameSource::host);
+            const auto children = add("bvh children", CLV_BIND_BVH_CHILDREN, s_.bvhNodes * sizeof(uvec4), FrameSource::host);
+            return {texel(boxes), texel(children, FrameFormat::rgba32Uint), texel(triangles)};
+        }
+        const auto corners = add("corners", CLV_BIND_CORNERS, s_.triangles * kFrameCornerBytes, FrameSource::host);
+        const auto acceleration = add("acceleration", CLV_BIND_ACCELERATION, s_.accelerationBytes, FrameSource::passes);
+        frame_.buffers[acceleration].triangles = s_.triangles;
+        begin("scene");
+        pass("build", "", uvec3(1), {{corners, FrameBinding::corners}, {acceleration, FrameBinding::acceleration, FrameAccess::write}});
+        return {{acceleration, FrameBinding::acceleration}, texel(triangles)};
+    }
+
+    // The maps of the lights: traced, or drawn and then coloured by the surfaces that are seen.
+    void addMaps(std::uint32_t frame, std::uint32_t texels, std::uint32_t triangles, const Uses& tracing, const Uses& surfaces, const std::string& textured, const std::string& query) {
         const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
         const uvec3 groups = groupsFor(s_.lights * s_.rsmSide * s_.rsmSide);
         if (s_.mapFaces == 0) {
-            pass("rsm", "rsm" + textured, groups, with(with({uniform(frame), read(lights), write(texels)}, tree), surfaces));
+            pass("rsm", "rsm" + textured + query, groups, with(with({uniform(frame), read(lights), write(texels)}, tracing), surfaces));
             return;
         }
         const auto faces = add("map faces", CLV_BIND_MAP_FACES, s_.mapFaces * sizeof(ClvMapFace), FrameSource::host);

@@ -41,7 +41,7 @@ CLV_READER_FN ClvBvhHit clvMeetTriangle(CLV_READER uint index, vec3 origin, vec3
     // A ray in the triangle's plane gives infinities or NaN, which do not pass all of these.
     if (u >= 0.0f && v >= 0.0f && u + v <= 1.0f && distance > 0.0f && distance < best.distance) {
         best.distance = distance;
-        best.primitive = uint(row0.w) | (uint(row1.w) << 16);
+        best.primitive = clvSceneIndexOf(row0.w, row1.w);
         best.u = u;
         best.v = v;
     }

@@ -1,0 +1,10 @@
+// Cuts rays by ray queries and says what they met, in a scene without textures.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_query : require
+#include "clv/data/frame.h"
+#include "clv/stages/trace.h"
+#include "query.glsl"
+#include "surface.glsl"
+#include "scene.glsl"
+#include "trace_hits.glsl"

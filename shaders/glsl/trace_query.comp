@@ -1,0 +1,8 @@
+// Cuts rays by ray queries.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_query : require
+#include "clv/data/frame.h"
+#include "clv/data/ray.h"
+#include "query.glsl"
+#include "trace.glsl"
