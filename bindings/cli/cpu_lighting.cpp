@@ -1,7 +1,7 @@
 #include "bindings/cli/cpu_lighting.h"
 
-#include "bindings/cli/light_maps.h"
 #include "bindings/cli/scene_facts.h"
+#include "bindings/embree/light_maps.h"
 #include "clv/cpu/still_lighting.h"
 
 namespace clv {

@@ -11,10 +11,7 @@ namespace clv {
 
 constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
 
-// True of a lamp that is on.
-bool sendsLight(const NamedLight& light);
-
-// Whatever moves is left to who moves it: a scene alone stands still.
+// What the scene and the options say; whatever moves is left to who moves it.
 SceneFacts sceneFacts(const Scene& scene, const LightOptions& options);
 
 // How volumes keep the deposits of about so many rays.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "bindings/cli/light_maps.h"
 #include "bindings/cli/scene_facts.h"
+#include "bindings/embree/light_maps.h"
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/plan/largest_flux.h"
 #include "clv/plan/triangle_corners.h"

@@ -1,7 +1,7 @@
-#include "bindings/cli/light_maps.h"
+#include "bindings/embree/light_maps.h"
 
-#include "bindings/cli/scene_facts.h"
 #include "bindings/embree/rsm.h"
+#include "bindings/scene/scene_facts.h"
 #include "clv/math/hash.h"
 
 namespace clv {
