@@ -57,7 +57,8 @@ struct TracedScene {
 
     SceneReader reader() const { return {bvh, rows}; }
 
-    void uploadScene(VulkanFrame& vulkan) const {
+    template <class Executor>
+    void uploadScene(Executor& vulkan) const {
         vulkan.upload("frame", constants);
         if (settings.lights > 0) vulkan.upload("lights", std::span<const ClvLight>(lights));
         if (settings.trace == TraceWay::walk) {
@@ -76,8 +77,8 @@ struct TracedScene {
         }
         if (guide) {
             vulkan.upload("guide", guide->grid());
-            vulkan.upload("guide cells", guide->cells());
-            vulkan.upload("guide weights", guide->weights());
+            vulkan.upload("guide cells", std::span<const uint>(guide->cells()));
+            vulkan.upload("guide weights", std::span<const float>(guide->weights()));
         }
     }
 
