@@ -4,6 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "benchmarks/report/text.h"
+
 namespace clv {
 namespace {
 
@@ -44,6 +49,30 @@ std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string&
     }
     for (Curve& curve : curves) std::ranges::stable_sort(curve.points, {}, [](const Measurement* m) { return workOf(*m); });
     return curves;
+}
+
+CurveLabels::CurveLabels(std::span<const Measurement> all) {
+    std::map<std::pair<std::string, std::string>, std::string> first;
+    for (const Measurement& m : all) {
+        for (const auto& [name, value] : m.settings) {
+            if (first.try_emplace({m.method, name}, value).first->second != value) telling_[m.method].insert(name);
+        }
+    }
+}
+
+std::string CurveLabels::curve(const Measurement& m) const {
+    const auto telling = telling_.find(m.method);
+    if (telling == telling_.end()) return m.method;
+    std::vector<std::string> words;
+    for (const auto& [name, value] : m.settings) {
+        if (telling->second.contains(name)) words.push_back(name + " " + value);
+    }
+    return fmt::format("{} ({})", m.method, fmt::join(words, ", "));
+}
+
+std::string CurveLabels::setting(const Measurement& m) const {
+    const std::string frames = m.frames > 1 ? fmt::format("{} frames of ", m.frames) : "";
+    return fmt::format("{}, {}{} rays", curve(m), frames, countText(m.rays));
 }
 
 Points pointsOf(std::span<const Curve> curves) {
@@ -89,10 +118,11 @@ std::optional<ErrorFall> fitErrorFall(std::span<const double> work, std::span<co
     const double least = *std::ranges::min_element(errors);
     ErrorFall best;
     double bestMisfit = std::numeric_limits<double>::infinity();
-    // For each floor below the least error the rest is a line in logarithms.
-    constexpr int kFloors = 200;
+    // For each floor below the least error the rest is a line in logarithms. Of the least square, noise keeps 1 down to 1e-5.
+    constexpr int kFloors = 400;
+    constexpr double kDecades = 5.0;
     for (int k = 0; k < kFloors; ++k) {
-        const double floor = least * k / kFloors;
+        const double floor = least * std::sqrt(1.0 - std::pow(10.0, -kDecades * k / kFloors));
         std::vector<double> x, y;
         for (std::size_t i = 0; i < work.size(); ++i) {
             x.push_back(std::log(work[i]));

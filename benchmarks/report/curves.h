@@ -1,6 +1,8 @@
 // What measurements say together: curves, the best of them, and how error falls with work.
 #pragma once
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,19 @@ struct Curve {
 std::vector<std::string> scenesOf(std::span<const Measurement> all);
 // In the order of their first measurements. `all` must outlive them.
 std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene);
+
+// Short names: of a method's settings those that tell its curves apart.
+class CurveLabels {
+public:
+    explicit CurveLabels(std::span<const Measurement> all);
+
+    std::string curve(const Measurement& m) const;
+    // With rays and frames: "ddgi (resolution 16), 4 frames of 64k rays".
+    std::string setting(const Measurement& m) const;
+
+private:
+    std::map<std::string, std::set<std::string>> telling_;  // names of settings, a method each
+};
 
 using Points = std::vector<const Measurement*>;
 Points pointsOf(std::span<const Curve> curves);

@@ -52,7 +52,7 @@ std::string drawn(const std::vector<float>& errors, const Image& shape, double t
 
 }  // namespace
 
-std::vector<HeatMap> heatMapsAt(double seconds, double readers, const std::vector<Curve>& curves, const fs::path& truthPicture, const fs::path& folder) {
+std::vector<HeatMap> heatMapsAt(double seconds, double readers, const std::vector<Curve>& curves, const CurveLabels& labels, const fs::path& truthPicture, const fs::path& folder) {
     const Image truth = readImage(truthPicture.string());
     std::vector<std::string> methods;
     for (const Curve& curve : curves) {
@@ -75,9 +75,8 @@ std::vector<HeatMap> heatMapsAt(double seconds, double readers, const std::vecto
     std::vector<HeatMap> maps;
     for (const ErrorPicture& picture : pictures) {
         fs::path file = pictureFile(folder, *picture.measurement);
-        const Image& shape = truth;
-        maps.push_back({fmt::format("{}: {}", describe(*picture.measurement), timeText(picture.measurement->seconds(readers))),
-                        drawn(picture.errors, shape, top, file.replace_extension(".png"))});
+        maps.push_back({fmt::format("{}: {}", labels.setting(*picture.measurement), timeText(picture.measurement->seconds(readers))),
+                        drawn(picture.errors, truth, top, file.replace_extension(".png"))});
     }
     return maps;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/report/chart.h"
+#include "benchmarks/report/goals.h"
 #include "benchmarks/report/text.h"
 
 namespace clv {
@@ -19,13 +20,14 @@ constexpr double kPictureBudgets[] = {50e-3, 100e-3, 200e-3, 500e-3, 1.0, 5.0};
 constexpr const char* kStyle = R"(
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1300px; padding: 0 1em; color: #222; }
 table { border-collapse: collapse; margin: 0.7em 0 1.5em; }
+td:first-child { white-space: nowrap; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.25em 0.8em; text-align: left; vertical-align: top; }
 th { border-bottom: 2px solid #888; }
-td.n { text-align: right; white-space: nowrap; }
 small, .note { color: #666; }
 .plots { display: flex; flex-wrap: wrap; gap: 1em; }
 figure { margin: 0; } figcaption { font-size: 90%; color: #444; }
 .key span { white-space: nowrap; margin-right: 1.3em; }
+.missed { color: #b00; }
 .wide { overflow-x: auto; font-size: 85%; }
 )";
 
@@ -36,7 +38,7 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
 }
 
 // For each budget and scene the setting that errs least within it.
-std::string budgetTable(const std::vector<Measurement>& all, std::span<const double> budgets, double readers) {
+std::string budgetTable(const std::vector<Measurement>& all, const CurveLabels& labels, std::span<const double> budgets, double readers) {
     const std::vector<std::string> scenes = scenesOf(all);
     std::vector<std::string> head = {"budget"};
     for (const std::string& scene : scenes) head.push_back(escaped(scene));
@@ -45,7 +47,7 @@ std::string budgetTable(const std::vector<Measurement>& all, std::span<const dou
         std::vector<std::string> cells = {fmt::format("<b>{:g} ms</b>", 1e3 * budget)};
         for (const std::string& scene : scenes) {
             const Measurement* best = bestWithin(pointsOf(curvesOf(all, scene)), budget, readers);
-            cells.push_back(best ? fmt::format("<b>{}</b> {}<br><small>{}</small>", percentText(best->errors.relativeRmse), escaped(describe(*best)),
+            cells.push_back(best ? fmt::format("<b>{}</b> {}<br><small>{}</small>", percentText(best->errors.relativeRmse), escaped(labels.setting(*best)),
                                                timeText(best->seconds(readers)))
                                  : "–");
         }
@@ -74,15 +76,23 @@ double errorPercent(const Measurement& m) {
 }
 
 std::string errorOverTime(const std::vector<Curve>& curves, double readers, const std::string& title) {
-    Chart chart = curveChart(curves, [&](const Measurement& m) { return 1e3 * m.seconds(readers); }, errorPercent);
+    const auto milliseconds = [&](const Measurement& m) { return 1e3 * m.seconds(readers); };
+    Chart chart = curveChart(curves, milliseconds, errorPercent);
+    // Lines join the best of each curve, so that settings that are beaten by its others do not bend it back.
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        chart.series[i].line = false;
+        ChartSeries best{.points = {}, .color = chartColor(i), .markers = false};
+        for (const Measurement* m : paretoFront(curves[i].points, readers)) best.points.emplace_back(milliseconds(*m), errorPercent(*m));
+        chart.series.push_back(best);
+    }
     ChartSeries front{.points = {}, .color = glm::u8vec3(190), .markers = false, .width = 9.0f};
-    for (const Measurement* m : paretoFront(pointsOf(curves), readers)) front.points.emplace_back(1e3 * m->seconds(readers), errorPercent(*m));
+    for (const Measurement* m : paretoFront(pointsOf(curves), readers)) front.points.emplace_back(milliseconds(*m), errorPercent(*m));
     chart.series.insert(chart.series.begin(), front);
     chart.title = title, chart.xTitle = "run time, ms", chart.yTitle = "relative RMSE, %";
     return figure(chart, "Lower and further left is better. Grey: the Pareto front, which nothing beats in both.");
 }
 
-std::string errorOverRays(const std::vector<Curve>& curves) {
+std::string errorOverRays(const std::vector<Curve>& curves, const CurveLabels& labels) {
     const auto work = [](const Measurement& m) { return double(m.raysTraced); };
     Chart chart = curveChart(curves, work, errorPercent);
     chart.title = "error over rays", chart.xTitle = "rays traced, all frames", chart.yTitle = "relative RMSE, %";
@@ -101,7 +111,7 @@ std::string errorOverRays(const std::vector<Curve>& curves) {
         }
         chart.series[i].line = false;
         chart.series.push_back(fitted);
-        table += row({escaped(curves[i].name), fmt::format("{:.2f}", fall->slope), percentText(fall->floor)});
+        table += row({escaped(labels.curve(*curves[i].points.front())), fmt::format("{:.2f}", fall->slope), percentText(fall->floor)});
     }
     return figure(chart, "Thin: error² = floor² + (c · rays^slope)². Noise alone falls with a slope of −0.5; the floor is what no rays remove." + table + "</table>");
 }
@@ -112,13 +122,26 @@ std::string bytesOverError(const std::vector<Curve>& curves) {
     return figure(chart, "For the light and for finding it, without the scene.");
 }
 
-std::string keyOf(const std::vector<Curve>& curves) {
+std::string keyOf(const std::vector<Curve>& curves, const CurveLabels& labels) {
     std::string text = "<p class=\"key\">";
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const glm::u8vec3 c = chartColor(i);
-        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">●</b> {}</span> ", c.r, c.g, c.b, escaped(curves[i].name));
+        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">●</b> {}</span> ", c.r, c.g, c.b, escaped(labels.curve(*curves[i].points.front())));
     }
     return text + "</p>\n";
+}
+
+std::string goalTable(const std::vector<Measurement>& all) {
+    std::string text = "<table>" + row({"goal", "scene", "measured", ""}, "th");
+    for (const GoalResult& result : judgeGoals(all, kPointReaders, kPictureReaders))
+        text += row({escaped(result.goal), escaped(result.scene), escaped(result.measured), result.reached ? "reached" : "<b class=\"missed\">missed</b>"});
+    return text + "</table>\n";
+}
+
+std::string aboutTable(const nlohmann::ordered_json& about) {
+    std::string text;
+    for (const auto& [name, value] : about.items()) text += row({escaped(name), escaped(value.is_string() ? value.get<std::string>() : value.dump())});
+    return "<table>\n" + text + "</table>\n";
 }
 
 std::string fullTable(const std::vector<Measurement>& all) {
@@ -139,20 +162,22 @@ std::string fullTable(const std::vector<Measurement>& all) {
 }  // namespace
 
 std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_json& about, const std::map<std::string, std::vector<HeatMap>>& heatMaps) {
+    const CurveLabels labels(all);
     std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against run time</title>\n<style>{}</style></head><body>\n", kStyle);
     page += "<h1>Error against run time</h1>\n<h2>What a millisecond buys</h2>\n";
     page += fmt::format("<p>The setting that errs least within a budget of run time, light and lookups at {:g} points, maps and set-up apart. "
                         "Errors are relative RMSE of the indirect irradiance against path tracing.</p>\n",
                         kPointReaders);
-    page += budgetTable(all, kPointBudgets, kPointReaders);
+    page += budgetTable(all, labels, kPointBudgets, kPointReaders);
     page += fmt::format("<p>The same at {:g} points, a picture of 1280 × 720:</p>\n", kPictureReaders);
-    page += budgetTable(all, kPictureBudgets, kPictureReaders);
+    page += budgetTable(all, labels, kPictureBudgets, kPictureReaders);
+    page += "<h2>Goals</h2>\n" + goalTable(all) + "<h2>Where this comes from</h2>\n" + aboutTable(about);
     for (const std::string& scene : scenesOf(all)) {
         const std::vector<Curve> curves = curvesOf(all, scene);
-        page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(curves));
+        page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(curves, labels));
         page += errorOverTime(curves, kPointReaders, fmt::format("{}, {:g} points", scene, kPointReaders));
         page += errorOverTime(curves, kPictureReaders, fmt::format("{}, 1280 x 720 pixels", scene));
-        page += errorOverRays(curves) + bytesOverError(curves) + "</div>\n";
+        page += errorOverRays(curves, labels) + bytesOverError(curves) + "</div>\n";
         page += fmt::format("<p class=\"note\">The truth's own standard error, {}, is in these errors.</p>\n", percentText(curves.front().points.front()->truthError));
         const auto maps = heatMaps.find(scene);
         if (maps == heatMaps.end()) continue;
@@ -161,9 +186,8 @@ std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_
             page += fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", base64(map.png), escaped(map.title));
         page += "</div>\n";
     }
-    page += "<h2>All measurements</h2>\n" + fullTable(all) + "<h2>Where these come from</h2>\n<table>\n";
-    for (const auto& [name, value] : about.items()) page += row({escaped(name), escaped(value.is_string() ? value.get<std::string>() : value.dump())});
-    return page + "</table>\n</body></html>\n";
+    page += "<h2>All measurements</h2>\n" + fullTable(all);
+    return page + "</body></html>\n";
 }
 
 }  // namespace clv

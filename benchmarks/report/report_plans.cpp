@@ -1,12 +1,17 @@
 #include "benchmarks/report/report_plans.h"
 
 #include "benchmarks/baselines/ddgi.h"
+#include "benchmarks/baselines/light_volume.h"
 #include "benchmarks/baselines/path_tracing.h"
 
 namespace clv {
 namespace {
 
 constexpr std::uint64_t kThousand = 1 << 10, kMillion = 1 << 20;
+
+MethodCase lightVolume(const LightVolumeSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames = {1}) {
+    return {.make = [settings] { return makeLightVolume(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
+}
 
 MethodCase ddgi(const DdgiSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames) {
     return {.make = [settings] { return makeDdgi(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
@@ -18,6 +23,11 @@ ReportPlan quickPlan() {
     ReportPlan plan;
     plan.scenes = {"cornell", "atrium"};
     plan.cases = {
+        lightVolume({}, {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}),
+        lightVolume({.resolution = 16}, {4 * kThousand, 16 * kThousand, 64 * kThousand}, {1, 4, 16}),
+        lightVolume({.resolution = 32}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
+        lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
+        lightVolume({.resolution = 16, .readers = Readers::anywhere}, {64 * kThousand}, {1, 4, 16}),
         {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
         ddgi({.resolution = 8}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
@@ -31,11 +41,20 @@ ReportPlan quickPlan() {
 ReportPlan fullPlan() {
     ReportPlan plan;
     plan.scenes = {"cornell", "two_rooms", "atrium", "atrium_turned"};
-    plan.cases = {{.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion, 16 * kMillion}}};
+    const std::vector<std::uint64_t> rays = {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion};
+    const std::vector<int> frames = {1, 4, 16, 64};
+    plan.cases = {lightVolume({}, rays)};
+    for (const int resolution : {16, 32, 64, 128}) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
+    for (const int resolution : {16, 32, 64}) {
+        plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, frames));
+        plan.cases.push_back(lightVolume({.resolution = resolution, .readers = Readers::anywhere}, {64 * kThousand}, frames));
+    }
+    for (const unsigned storage : {kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) plan.cases.push_back(lightVolume({.resolution = 32, .storage = storage}, rays));
+    plan.cases.push_back({.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion, 16 * kMillion}});
     for (const Readers readers : {Readers::surfaces, Readers::anywhere}) {
         for (const int resolution : {8, 16, 32}) {
             for (const float hysteresis : {0.97f, 1.0f})
-                plan.cases.push_back(ddgi({.resolution = resolution, .readers = readers, .hysteresis = hysteresis}, {64 * kThousand, 512 * kThousand}, {1, 4, 16, 64}));
+                plan.cases.push_back(ddgi({.resolution = resolution, .readers = readers, .hysteresis = hysteresis}, {64 * kThousand, 512 * kThousand}, frames));
         }
     }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};

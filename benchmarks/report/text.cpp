@@ -1,7 +1,7 @@
 #include "benchmarks/report/text.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -28,11 +28,6 @@ std::string countText(std::uint64_t count) {
 std::string bytesText(std::size_t bytes) {
     if (bytes < 1u << 20) return fmt::format("{:.1f} KiB", double(bytes) / double(1u << 10));
     return fmt::format("{:.1f} MiB", double(bytes) / double(1u << 20));
-}
-
-std::string describe(const Measurement& m) {
-    const std::string frames = m.frames > 1 ? fmt::format("{} frames of ", m.frames) : "";
-    return fmt::format("{}, {}{} rays", curveName(m), frames, countText(m.rays));
 }
 
 std::string escaped(const std::string& text) {

@@ -79,8 +79,10 @@ struct ReportCommand {
         const std::vector<Measurement> all = measureAll(plan, folder, parallelForOf(common), [&](double share) { progress.update(share); });
         report.update(provenance());
         report["command_line"] = commandLine();
+        const CurveLabels labels(all);
         std::map<std::string, std::vector<HeatMap>> heatMaps;
-        for (const std::string& scene : plan.scenes) heatMaps[scene] = heatMapsAt(kHeatMapBudget, kPointReaders, curvesOf(all, scene), truthPictureFile(folder, plan, scene), folder);
+        for (const std::string& scene : plan.scenes)
+            heatMaps[scene] = heatMapsAt(kHeatMapBudget, kPointReaders, curvesOf(all, scene), labels, truthPictureFile(folder, plan, scene), folder);
         writeText(output.path("report.html"), htmlOf(all, report, heatMaps));
         Report file = report;
         file["measurements"] = Report::array();

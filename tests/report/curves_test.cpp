@@ -23,7 +23,7 @@ TEST(Curves, aSceneHasOneForEachMethodByRisingWork) {
     std::vector<Measurement> mixed = kMade;
     std::swap(mixed[0], mixed[2]);
     mixed.push_back(made("a", 1, 1.0));
-    mixed.back().scene += "2";
+    mixed.back().scene.push_back('2');
     const auto curves = curvesOf(mixed, "s");
     ASSERT_EQ(curves.size(), 2u);
     EXPECT_EQ(curves[0].name, "a");
@@ -75,6 +75,17 @@ TEST(Curves, aFallWithAFloorIsFound) {
     EXPECT_NEAR(fall->floor, 0.03, 0.001);
     EXPECT_NEAR(fall->at(5e4), std::hypot(0.03, 20.0 * std::pow(5e4, -0.55)), 1e-3);
     EXPECT_FALSE(fitErrorFall(std::span(work).first(2), std::span(errors).first(2)));
+}
+
+TEST(Curves, labelsHoldTheSettingsThatTellAMethodsCurvesApart) {
+    std::vector<Measurement> all = {made("a", 1, 1, 65536), made("a", 1, 1, 1 << 20), made("b", 1, 1)};
+    all[0].settings = {{"resolution", "16"}, {"storage", "cube9"}};
+    all[1].settings = {{"resolution", "32"}, {"storage", "cube9"}};
+    all[1].frames = 16;
+    const CurveLabels labels(all);
+    EXPECT_EQ(labels.setting(all[0]), "a (resolution 16), 64k rays");
+    EXPECT_EQ(labels.setting(all[1]), "a (resolution 32), 16 frames of 1M rays");
+    EXPECT_EQ(labels.curve(all[2]), "b");
 }
 
 }  // namespace

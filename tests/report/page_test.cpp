@@ -70,11 +70,4 @@ TEST(Text, base64IsThatOfRfc4648) {
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-TEST(Text, mergedFramesAreNamed) {
-    Measurement m = made("s", "a", 1, 1, 65536);
-    EXPECT_EQ(describe(m), "a, 64k rays");
-    m.frames = 16, m.settings = {{"resolution", "32"}};
-    EXPECT_EQ(describe(m), "a (resolution 32), 16 frames of 64k rays");
-}
-
 }  // namespace

@@ -1,0 +1,170 @@
+#include "benchmarks/report/goals.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "benchmarks/report/statistics.h"
+#include "benchmarks/report/text.h"
+
+namespace clv {
+namespace {
+
+constexpr const char* kLibrary = "clv";
+
+std::string settingOf(const Measurement& m, const std::string& name) {
+    const auto found = std::ranges::find(m.settings, name, &MethodSettings::value_type::first);
+    return found == m.settings.end() ? "" : found->second;
+}
+
+using Filter = std::function<bool(const Measurement&)>;
+
+Points filtered(std::span<const Measurement> all, const std::string& scene, const Filter& filter) {
+    Points points;
+    for (const Measurement& m : all) {
+        if (m.scene == scene && filter(m)) points.push_back(&m);
+    }
+    return points;
+}
+
+Filter method(const std::string& name) {
+    return [name](const Measurement& m) { return m.method == name; };
+}
+Filter withReaders(const std::string& name, const std::string& readers) {
+    return [=](const Measurement& m) { return m.method == name && settingOf(m, "readers") == readers; };
+}
+
+GoalResult ratioResult(const std::string& goal, const std::string& scene, double ratio, double least, const std::string& where) {
+    return {goal, scene, fmt::format("{:.3g}× {}", ratio, where), ratio >= least};
+}
+
+class Judge {
+public:
+    Judge(std::span<const Measurement> all, const std::string& scene, double pointReaders, double pictureReaders)
+        : all_(all), scene_(scene), pointReaders_(pointReaders), pictureReaders_(pictureReaders) {}
+
+    std::vector<GoalResult> judge() {
+        onePictureAgainstPathTracing();
+        mergedPicturesAgainstPathTracing();
+        atEqualError("against DDGI, light for moving objects anywhere: ≥ 8× faster", withReaders(kLibrary, "anywhere"), withReaders("ddgi", "anywhere"), 8.0);
+        atEqualError("against DDGI, only probes near surfaces: ≥ 1.5× faster", withReaders(kLibrary, "surfaces"), withReaders("ddgi", "surfaces"), 1.5);
+        reachesWhatNeverIsReached();
+        thesisIsNotOnTheFront();
+        fallsAsNoiseDoes();
+        finerCellsLowerTheFloor();
+        chosenIsAsGoodAsFixed();
+        return results_;
+    }
+
+private:
+    Points points(const Filter& filter) const { return filtered(all_, scene_, filter); }
+
+    void onePictureAgainstPathTracing() {
+        constexpr double kLeast = 100.0;
+        constexpr std::uint64_t kFrameRays = 64 << 10;
+        const Points own = points([](const Measurement& m) {
+            return m.method == kLibrary && m.frames == 1 && m.rays == kFrameRays && settingOf(m, "resolution") == "chosen";
+        });
+        const Points rival = points(method("path_tracing"));
+        if (own.empty() || rival.empty()) return;
+        const double error = own.front()->errors.relativeRmse;
+        const std::string goal = "against path tracing, a picture of 1280 × 720, one frame of 64k rays: ≥ 100× faster";
+        if (const auto seconds = secondsToReach(rival, error, pictureReaders_))
+            results_.push_back(ratioResult(goal, scene_, *seconds / own.front()->seconds(pictureReaders_), kLeast, fmt::format("at {}", percentText(error))));
+    }
+
+    void mergedPicturesAgainstPathTracing() {
+        constexpr double kLeast = 500.0;
+        constexpr std::pair<const char*, double> kErrors[] = {{"cornell", 0.07}, {"atrium", 0.17}};
+        for (const auto& [name, error] : kErrors) {
+            if (scene_ != name) continue;
+            const auto own = secondsToReach(points(method(kLibrary)), error, pictureReaders_), rival = secondsToReach(points(method("path_tracing")), error, pictureReaders_);
+            const std::string goal = "against path tracing, a picture of a still scene, merged frames: ≥ 500× faster", where = fmt::format("at {}", percentText(error));
+            if (own && rival) results_.push_back(ratioResult(goal, scene_, *rival / *own, kLeast, where));
+            if (!own && rival) results_.push_back({goal, scene_, "never " + where, false});
+        }
+    }
+
+    // Over the rival's front, the median of how much longer it takes.
+    void atEqualError(const std::string& goal, const Filter& own, const Filter& rival, double least) {
+        const Points ownPoints = points(own), rivalPoints = points(rival);
+        if (ownPoints.empty() || rivalPoints.empty()) return;
+        std::vector<double> ratios;
+        for (const Measurement* m : paretoFront(rivalPoints, pointReaders_)) {
+            const auto seconds = secondsToReach(ownPoints, m->errors.relativeRmse, pointReaders_);
+            ratios.push_back(seconds ? m->seconds(pointReaders_) / *seconds : 0.0);
+        }
+        results_.push_back(ratioResult(goal, scene_, median(ratios), least, fmt::format("median, {:.3g} to {:.3g}×", std::ranges::min(ratios), std::ranges::max(ratios))));
+    }
+
+    void reachesWhatNeverIsReached() {
+        const Points own = points(method(kLibrary)), rival = points(method("lpv"));
+        if (own.empty() || rival.empty()) return;
+        const double least = paretoFront(own, pointReaders_).back()->errors.relativeRmse, theirs = paretoFront(rival, pointReaders_).back()->errors.relativeRmse;
+        results_.push_back({"against light propagation volumes: reaches errors that they never reach", scene_,
+                            fmt::format("{} against {}", percentText(least), percentText(theirs)), least < theirs});
+    }
+
+    void thesisIsNotOnTheFront() {
+        if (points(method("thesis")).empty()) return;
+        const auto count = std::ranges::count(paretoFront(points([](const Measurement&) { return true; }), pointReaders_), "thesis", &Measurement::method);
+        results_.push_back({"the thesis' rule: no setting of it lies on the Pareto front", scene_, fmt::format("{} of them", count), count == 0});
+    }
+
+    std::optional<ErrorFall> fallOf(const std::string& resolution) const {
+        std::vector<double> rays, errors;
+        for (const Measurement* m : points([&](const Measurement& m) {
+                 return m.method == kLibrary && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
+             })) {
+            rays.push_back(double(m->raysTraced)), errors.push_back(m->errors.relativeRmse);
+        }
+        return fitErrorFall(rays, errors);
+    }
+    void fallsAsNoiseDoes() {
+        constexpr double kSlope = -0.5;
+        if (const auto fall = fallOf("32")) results_.push_back({"error over rays at 32³, floor apart: slope of −0.5 or steeper", scene_, fmt::format("{:.3f}", fall->slope), fall->slope <= kSlope});
+    }
+    void finerCellsLowerTheFloor() {
+        constexpr double kLeast = 1.3;
+        const auto coarse = fallOf("32"), fine = fallOf("64");
+        if (coarse && fine && fine->floor > 0.0)
+            results_.push_back(ratioResult("the floor falls from 32³ to 64³ by ≥ 1.3", scene_, coarse->floor / fine->floor, kLeast,
+                                           fmt::format("({} to {})", percentText(coarse->floor), percentText(fine->floor))));
+    }
+
+    void chosenIsAsGoodAsFixed() {
+        constexpr double kMost = 1.03;
+        double worst = 0.0;
+        for (const Measurement* chosen : points([](const Measurement& m) { return m.method == kLibrary && settingOf(m, "resolution") == "chosen"; })) {
+            for (const Measurement* fixed : points(method(kLibrary))) {
+                if (settingOf(*fixed, "resolution") == "chosen" || fixed->rays * fixed->frames != chosen->rays * chosen->frames) continue;
+                worst = std::max(worst, chosen->errors.relativeRmse / fixed->errors.relativeRmse);
+            }
+        }
+        if (worst > 0.0) results_.push_back({"the chosen resolution errs at most 1.03 times as much as any fixed one with the same rays", scene_, fmt::format("{:.3f} at worst", worst), worst <= kMost});
+    }
+
+    const std::span<const Measurement> all_;
+    const std::string scene_;
+    const double pointReaders_, pictureReaders_;
+    std::vector<GoalResult> results_;
+};
+
+}  // namespace
+
+std::vector<GoalResult> judgeGoals(std::span<const Measurement> all, double pointReaders, double pictureReaders) {
+    std::vector<GoalResult> results;
+    for (const std::string& scene : scenesOf(all)) {
+        for (const GoalResult& result : Judge(all, scene, pointReaders, pictureReaders).judge()) results.push_back(result);
+    }
+    // The same goal in all scenes stands together.
+    std::vector<std::string> order;
+    for (const GoalResult& result : results) {
+        if (std::ranges::find(order, result.goal) == order.end()) order.push_back(result.goal);
+    }
+    std::ranges::stable_sort(results, {}, [&](const GoalResult& result) { return std::ranges::find(order, result.goal) - order.begin(); });
+    return results;
+}
+
+}  // namespace clv

@@ -1,0 +1,82 @@
+// Goals are judged by what was measured, missed ones too.
+#include "benchmarks/report/goals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace clv;
+
+Measurement made(const std::string& method, MethodSettings settings, double milliseconds, double error, std::uint64_t rays = 64 << 10, int frames = 1) {
+    Measurement m;
+    m.scene = "cornell", m.method = method, m.settings = std::move(settings), m.rays = rays, m.frames = frames, m.raysTraced = rays * std::uint64_t(frames);
+    m.frameSeconds = 1e-3 * milliseconds, m.errors.relativeRmse = error, m.receivers = 1000;
+    m.sharesRays = method != "path_tracing";
+    return m;
+}
+
+const GoalResult* find(const std::vector<GoalResult>& results, const std::string& words) {
+    const auto found = std::ranges::find_if(results, [&](const GoalResult& r) { return r.goal.find(words) != std::string::npos; });
+    return found == results.end() ? nullptr : &*found;
+}
+
+const MethodSettings kChosen = {{"resolution", "chosen"}, {"readers", "surfaces"}};
+
+TEST(Goals, aPictureIsComparedAtTheFramesOwnError) {
+    // Path tracing pays for each of 10,000 readers: 10 times its measured 1,000.
+    const std::vector<Measurement> all = {made("clv", kChosen, 10, 0.1), made("path_tracing", {}, 50, 0.2), made("path_tracing", {}, 200, 0.1)};
+    const auto results = judgeGoals(all, 1000, 10000);
+    const GoalResult* one = find(results, "one frame");
+    ASSERT_TRUE(one);
+    EXPECT_EQ(one->measured, "200× at 10.0 %");
+    EXPECT_TRUE(one->reached);
+    const GoalResult* merged = find(results, "merged");
+    EXPECT_FALSE(merged) << "path tracing was not measured down to 7 %";
+}
+
+TEST(Goals, aMissedGoalIsShown) {
+    const std::vector<Measurement> all = {made("clv", kChosen, 10, 0.1), made("ddgi", {{"readers", "surfaces"}}, 12, 0.1), made("ddgi", {{"readers", "surfaces"}}, 40, 0.05)};
+    const auto results = judgeGoals(all, 1000, 10000);
+    const GoalResult* ddgi = find(results, "only probes near surfaces");
+    ASSERT_TRUE(ddgi);
+    // 1.2 at 10 %, and never at 5 %.
+    EXPECT_EQ(ddgi->measured, "1.2× median, 0 to 1.2×");
+    EXPECT_FALSE(ddgi->reached);
+    EXPECT_FALSE(find(results, "anywhere")) << "not measured";
+}
+
+TEST(Goals, slopesAndFloorsAreThoseOfTheResolutions) {
+    std::vector<Measurement> all;
+    for (const auto& [resolution, floor] : {std::pair{"32", 0.06}, {"64", 0.04}}) {
+        for (std::uint64_t rays = 1 << 14; rays <= 1 << 24; rays *= 4)
+            all.push_back(made("clv", {{"resolution", resolution}, {"storage", "cube9"}, {"readers", "surfaces"}}, 1, std::hypot(floor, 40.0 * std::pow(double(rays), -0.52)), rays));
+    }
+    const auto results = judgeGoals(all, 1000, 10000);
+    ASSERT_TRUE(find(results, "slope"));
+    EXPECT_NEAR(std::stod(find(results, "slope")->measured), -0.52, 0.01);
+    EXPECT_TRUE(find(results, "slope")->reached);
+    EXPECT_NEAR(std::stod(find(results, "floor falls")->measured), 1.5, 0.03);
+}
+
+TEST(Goals, theChosenResolutionIsHeldAgainstFixedOnesWithTheSameRays) {
+    const std::vector<Measurement> all = {made("clv", kChosen, 1, 0.12), made("clv", {{"resolution", "32"}}, 1, 0.1), made("clv", {{"resolution", "64"}}, 1, 0.05, 4 << 20)};
+    const auto results = judgeGoals(all, 1000, 10000);
+    ASSERT_TRUE(find(results, "1.03"));
+    EXPECT_EQ(find(results, "1.03")->measured, "1.200 at worst");
+    EXPECT_FALSE(find(results, "1.03")->reached);
+}
+
+TEST(Goals, theThesisMustNotBeOnTheFront) {
+    std::vector<Measurement> all = {made("clv", kChosen, 1, 0.1), made("thesis", {}, 2, 0.2), made("lpv", {}, 2, 0.3)};
+    const auto beaten = judgeGoals(all, 1000, 10000);
+    EXPECT_TRUE(find(beaten, "thesis")->reached);
+    EXPECT_TRUE(find(beaten, "propagation")->reached);
+    all[1].frameSeconds = 1e-4;
+    const auto faster = judgeGoals(all, 1000, 10000);
+    EXPECT_FALSE(find(faster, "thesis")->reached);
+}
+
+}  // namespace
