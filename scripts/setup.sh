@@ -42,3 +42,6 @@ buildPreset() {
     CMAKE_GENERATOR=Ninja cmake --preset "$preset"
     cmake --build --preset "$preset" ${1:+--target "$@"}
 }
+
+# What benchmarks/report/stored_report.json was measured with.
+storedReport=(--scenes cornell --methods clv ddgi thesis --points 300 --truth-samples 1024 --repeats 6)

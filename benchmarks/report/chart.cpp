@@ -148,8 +148,8 @@ std::string svgOf(const Chart& chart, int width, int height) {
 }
 
 glm::u8vec3 chartColor(std::size_t index) {
-    // Okabe and Ito 2008: told apart by colour-blind eyes too.
-    constexpr glm::u8vec3 kColors[] = {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {90, 90, 90}, {148, 70, 20}};
+    // The first six by Okabe and Ito 2008: told apart by colour-blind eyes too.
+    constexpr glm::u8vec3 kColors[] = {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {90, 90, 90}, {148, 70, 20}, {110, 60, 180}, {120, 150, 20}, {220, 60, 90}, {0, 90, 90}};
     return kColors[index % std::size(kColors)];
 }
 

@@ -11,6 +11,9 @@
 
 namespace clv {
 
+// The method that is this library.
+inline constexpr const char* kLibraryName = "clv";
+
 // Measurements of one scene and one method with its settings, by rising work.
 struct Curve {
     std::string name;

@@ -11,8 +11,6 @@
 namespace clv {
 namespace {
 
-constexpr const char* kLibrary = "clv";
-
 std::string settingOf(const Measurement& m, const std::string& name) {
     const auto found = std::ranges::find(m.settings, name, &MethodSettings::value_type::first);
     return found == m.settings.end() ? "" : found->second;
@@ -47,8 +45,8 @@ public:
     std::vector<GoalResult> judge() {
         onePictureAgainstPathTracing();
         mergedPicturesAgainstPathTracing();
-        atEqualError("against DDGI, light for moving objects anywhere: ≥ 8× faster", withReaders(kLibrary, "anywhere"), withReaders("ddgi", "anywhere"), 8.0);
-        atEqualError("against DDGI, only probes near surfaces: ≥ 1.5× faster", withReaders(kLibrary, "surfaces"), withReaders("ddgi", "surfaces"), 1.5);
+        atEqualError("against DDGI, light for moving objects anywhere: ≥ 8× faster", withReaders(kLibraryName, "anywhere"), withReaders("ddgi", "anywhere"), 8.0);
+        atEqualError("against DDGI, only probes near surfaces: ≥ 1.5× faster", withReaders(kLibraryName, "surfaces"), withReaders("ddgi", "surfaces"), 1.5);
         reachesWhatNeverIsReached();
         thesisIsNotOnTheFront();
         fallsAsNoiseDoes();
@@ -64,7 +62,7 @@ private:
         constexpr double kLeast = 100.0;
         constexpr std::uint64_t kFrameRays = 64 << 10;
         const Points own = points([](const Measurement& m) {
-            return m.method == kLibrary && m.frames == 1 && m.rays == kFrameRays && settingOf(m, "resolution") == "chosen";
+            return m.method == kLibraryName && m.frames == 1 && m.rays == kFrameRays && settingOf(m, "resolution") == "chosen";
         });
         const Points rival = points(method("path_tracing"));
         if (own.empty() || rival.empty()) return;
@@ -79,7 +77,7 @@ private:
         constexpr std::pair<const char*, double> kErrors[] = {{"cornell", 0.07}, {"atrium", 0.17}};
         for (const auto& [name, error] : kErrors) {
             if (scene_ != name) continue;
-            const auto own = secondsToReach(points(method(kLibrary)), error, pictureReaders_), rival = secondsToReach(points(method("path_tracing")), error, pictureReaders_);
+            const auto own = secondsToReach(points(method(kLibraryName)), error, pictureReaders_), rival = secondsToReach(points(method("path_tracing")), error, pictureReaders_);
             const std::string goal = "against path tracing, a picture of a still scene, merged frames: ≥ 500× faster", where = fmt::format("at {}", percentText(error));
             if (own && rival) results_.push_back(ratioResult(goal, scene_, *rival / *own, kLeast, where));
             if (!own && rival) results_.push_back({goal, scene_, "never " + where, false});
@@ -99,7 +97,7 @@ private:
     }
 
     void reachesWhatNeverIsReached() {
-        const Points own = points(method(kLibrary)), rival = points(method("lpv"));
+        const Points own = points(method(kLibraryName)), rival = points(method("lpv"));
         if (own.empty() || rival.empty()) return;
         const double least = paretoFront(own, pointReaders_).back()->errors.relativeRmse, theirs = paretoFront(rival, pointReaders_).back()->errors.relativeRmse;
         results_.push_back({"against light propagation volumes: reaches errors that they never reach", scene_,
@@ -115,7 +113,7 @@ private:
     std::optional<ErrorFall> fallOf(const std::string& resolution) const {
         std::vector<double> rays, errors;
         for (const Measurement* m : points([&](const Measurement& m) {
-                 return m.method == kLibrary && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
+                 return m.method == kLibraryName && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
              })) {
             rays.push_back(double(m->raysTraced)), errors.push_back(m->errors.relativeRmse);
         }
@@ -136,8 +134,8 @@ private:
     void chosenIsAsGoodAsFixed() {
         constexpr double kMost = 1.03;
         double worst = 0.0;
-        for (const Measurement* chosen : points([](const Measurement& m) { return m.method == kLibrary && settingOf(m, "resolution") == "chosen"; })) {
-            for (const Measurement* fixed : points(method(kLibrary))) {
+        for (const Measurement* chosen : points([](const Measurement& m) { return m.method == kLibraryName && settingOf(m, "resolution") == "chosen"; })) {
+            for (const Measurement* fixed : points(method(kLibraryName))) {
                 if (settingOf(*fixed, "resolution") == "chosen" || fixed->rays * fixed->frames != chosen->rays * chosen->frames) continue;
                 worst = std::max(worst, chosen->errors.relativeRmse / fixed->errors.relativeRmse);
             }

@@ -3,6 +3,7 @@
 #include "benchmarks/baselines/ddgi.h"
 #include "benchmarks/baselines/light_volume.h"
 #include "benchmarks/baselines/path_tracing.h"
+#include "benchmarks/baselines/thesis.h"
 
 namespace clv {
 namespace {
@@ -17,6 +18,10 @@ MethodCase ddgi(const DdgiSettings& settings, std::vector<std::uint64_t> rays, s
     return {.make = [settings] { return makeDdgi(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
 
+MethodCase thesis(const ThesisSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames) {
+    return {.make = [settings] { return makeThesis(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
+}
+
 }  // namespace
 
 ReportPlan quickPlan() {
@@ -29,6 +34,8 @@ ReportPlan quickPlan() {
         lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 16, .readers = Readers::anywhere}, {64 * kThousand}, {1, 4, 16}),
         {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
+        thesis({.resolution = 16}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
+        thesis({.resolution = 32}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 8}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
@@ -56,6 +63,9 @@ ReportPlan fullPlan() {
             for (const float hysteresis : {0.97f, 1.0f})
                 plan.cases.push_back(ddgi({.resolution = resolution, .readers = readers, .hysteresis = hysteresis}, {64 * kThousand, 512 * kThousand}, frames));
         }
+    }
+    for (const int resolution : {16, 32, 64}) {
+        for (const float blend : {0.05f, 0.2f}) plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {16 * kThousand, 64 * kThousand, 512 * kThousand}, frames));
     }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;

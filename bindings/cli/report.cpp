@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "benchmarks/report/comparison.h"
 #include "benchmarks/report/page.h"
 #include "benchmarks/report/provenance.h"
 #include "benchmarks/report/report_plans.h"
@@ -51,6 +52,7 @@ void keepMethods(std::vector<MethodCase>& cases, const std::vector<std::string>&
 struct ReportCommand {
     CommonOptions common;
     std::string out;
+    std::string compare;  // report.json of an earlier report, or empty
     bool full = false;
     // In place of what the plan has, or empty.
     std::vector<std::string> scenes, methods;
@@ -73,6 +75,7 @@ struct ReportCommand {
     void run(const CLI::App& command) const {
         Report report = startReport(command, common);
         const ReportPlan plan = this->plan();
+        const std::vector<Measurement> before = compare.empty() ? std::vector<Measurement>() : readReport(compare);
         const std::filesystem::path folder = outputFolder(out);
         StagedOutput output(folder);
         Progress progress("report");
@@ -96,7 +99,10 @@ struct ReportCommand {
         report["seconds"] = progress.seconds();
         report["out"] = out;
         report["files"] = {"report.html", "report.csv", "report.json"};
+        const std::vector<std::string> worse = compare.empty() ? std::vector<std::string>() : findRegressions(before, all);
+        if (!compare.empty()) report["worse"] = worse;
         printReport(report, common);
+        if (!worse.empty()) throw std::runtime_error(fmt::format("worse than {}: {}", compare, fmt::join(worse, "; ")));
     }
 };
 
@@ -109,6 +115,7 @@ void addReportCommand(CLI::App& app) {
     auto* quick = command->add_flag("--quick")->description("A few minutes (the default)");
     command->add_flag("--full", options->full, "Within an hour: more scenes, settings, points and repeats")->excludes(quick);
     command->add_option("--scenes", options->scenes, "Scenes in place of the report's own: files, or names of built-in ones");
+    command->add_option("--compare", options->compare, "The report.json of an earlier report; exit with 1 where an error or a ratio of times has become worse");
     command->add_option("--methods", options->methods, "Those of the report's methods to measure");
     command->add_option("--points", options->points, "Points where errors are measured")->check(CLI::Range(1, kMostPoints));
     command->add_option("--truth-samples", options->truthSamples, "Paths a point of the truth")->check(CLI::PositiveNumber);

@@ -56,6 +56,25 @@ TEST_F(ReportCommand, writesAPageTablesAndMeasurementsOnce) {
     for (const std::string& name : listing("r")) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
+TEST_F(ReportCommand, aWorseReportFailsAndSaysWhatIsWorse) {
+    std::vector<std::string> arguments = {"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20",
+                                          "--truth-samples", "64", "--repeats", "6", "--compare", file("r/report.json")};
+    expectRefused(arguments, {"report.json", "expected the report.json"});
+    arguments.resize(arguments.size() - 2);
+    ASSERT_EQ(runCommand(arguments).status, 0);
+    auto report = nlohmann::json::parse(read(file("r/report.json")));
+    auto compared = arguments;
+    compared.insert(compared.end(), {"--compare", write("old.json", report.dump())});
+    EXPECT_EQ(runCommand(compared).status, 0);
+
+    report["measurements"][0]["relative_rmse"] = 0.0, report["measurements"][0]["relative_rmse_interval"] = 0.0;
+    write("old.json", report.dump());
+    const CommandResult worse = runCommand(compared);
+    EXPECT_EQ(worse.status, 1) << worse.err;
+    EXPECT_EQ(std::ranges::count(worse.err, '\n'), 1) << worse.err;
+    EXPECT_NE(worse.err.find("white_sphere, path_tracing, 16k rays: relative RMSE"), std::string::npos) << worse.err;
+}
+
 TEST(TimeLeft, isWhatThePaceSoFarForetells) {
     EXPECT_EQ(timeLeftText(60.0, 0.25), ", 3:00 left");
     EXPECT_EQ(timeLeftText(125.0, 0.5), ", 2:05 left");

@@ -11,7 +11,7 @@ using namespace clv;
 
 Measurement made(const std::string& method, double milliseconds, double error, std::uint64_t rays = 1) {
     Measurement m;
-    m.scene = "s", m.method = method, m.rays = rays;
+    m.scene = std::string(1, 's'), m.method = method, m.rays = rays;
     m.frameSeconds = 1e-3 * milliseconds, m.errors.relativeRmse = error;
     m.receivers = 100;
     return m;
