@@ -78,6 +78,16 @@ std::string compare(const StoredCheck& check, const std::vector<float>& values, 
     return words.str();
 }
 
+// The ways by which the device can add up what the case has.
+std::vector<InjectWay> waysFor(const VulkanFeatures& features, const LightFrameSettings& settings) {
+    if (settings.picture.x > 0 && !features.draws) return {};
+    if (settings.inject == InjectWay::slices) return drawsSlices(features) ? std::vector{InjectWay::slices} : std::vector<InjectWay>();
+    std::vector<InjectWay> ways = waysOf(features, settings.rule);
+    if (settings.movingLights) std::erase_if(ways, gathers);
+    if (settings.levels.empty()) ways.resize(1);
+    return ways;
+}
+
 // A difference of languages is no fault: compilers of drivers may round differently where Vulkan lets them.
 CaseResult repeatCase(VulkanDevice& device, const StoredCase& stored) {
     const auto run = [&](ShaderLanguage language) { return runCase(device, stored, InjectWay::fixedPoint, TraceWay::walk, language); };
@@ -99,8 +109,8 @@ std::vector<CaseResult> checkCases(VulkanDevice& device, const std::filesystem::
     std::vector<CaseResult> results;
     for (const auto& file : files) {
         const StoredCase stored = readStoredCase(file);
-        std::vector<InjectWay> ways = waysOf(device.info().features, stored.settings.rule);
-        if (stored.settings.levels.empty()) ways.resize(1);
+        const std::vector<InjectWay> ways = waysFor(device.info().features, stored.settings);
+        if (ways.empty()) continue;  // the device does not draw
         const auto check = [&](InjectWay way, TraceWay trace, ShaderLanguage language) {
             CaseResult result{stored.name, language == ShaderLanguage::glsl ? "glsl" : "hlsl", stored.settings.levels.empty() ? "" : wayName(way), traces(stored) ? traceName(trace) : "", true, ""};
             const Outputs outputs = runCase(device, stored, way, trace, language);
@@ -112,7 +122,7 @@ std::vector<CaseResult> checkCases(VulkanDevice& device, const std::filesystem::
         }
         // Queries are of GLSL alone.
         if (traces(stored) && device.info().features.rayQueries) check(ways.front(), TraceWay::query, ShaderLanguage::glsl);
-        if (!stored.settings.levels.empty()) results.push_back(repeatCase(device, stored));
+        if (!stored.settings.levels.empty() && ways.front() != InjectWay::slices) results.push_back(repeatCase(device, stored));
     }
     return results;
 }

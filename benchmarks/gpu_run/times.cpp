@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 
 #include "benchmarks/gpu_run/host_scene.h"
@@ -10,6 +11,7 @@
 #include "bindings/vulkan/vulkan_level.h"
 #include "clv/cpu/build_level.h"
 #include "clv/plan/cascade_placement.h"
+#include "clv/plan/map_faces.h"
 #include "clv/plan/triangle_corners.h"
 #include "clv/stages/rays.h"
 
@@ -67,7 +69,24 @@ std::vector<LevelInputs> levelsOf(const StoredScene& scene, const ClvCascades& c
     return levels;
 }
 
-std::size_t rowOf(const std::string& pass) { return pass == "rays" ? 0 : pass == "trace" ? 1 : pass.starts_with("evaluate") ? 3 : 2; }
+int rowOf(const std::string& pass) { return pass == "rays" ? 0 : pass == "trace" ? 1 : pass.starts_with("evaluate") ? 3 : kVolumeRow; }
+
+double millisecondsOf(const std::function<void()>& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Calls `once` for so many seconds, and at least a few times.
+void repeat(double seconds, const std::function<void()>& once) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (std::size_t repeats = 0; repeats < kFewestRepeats || std::chrono::steady_clock::now() < end; ++repeats) once();
+}
+
+TimedRow rowOf(std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    return {times[times.size() / 2], times.front()};
+}
 
 class FrameTimer {
 public:
@@ -84,25 +103,19 @@ public:
 
     void time(InjectWay way, TraceWay trace, double seconds, TimedFrame& timed) {
         TimedWay& result = timed.ways.emplace_back(TimedWay{.way = way, .trace = trace});
-        settings_.inject = way, settings_.trace = trace;
-        if (trace == TraceWay::query) settings_.accelerationBytes = device_.accelerationBytes(settings_.triangles);
-        settings_.rays = setting_.rays;
-        settings_.rays = std::min(setting_.rays, largestFrameRays(settings_, device_.info().limits));
-        timed.rounds = (setting_.rays + settings_.rays - 1) / settings_.rays;
-        Frame description = lightFrame(settings_);
-        description.buffers[description.bufferIndex("texels")].readBack = true;
-        timed.bytes = description.bytes();
         try {
+            const Frame description = describe(way, trace);
+            result.rounds = (setting_.rays + settings_.rays - 1) / settings_.rays, result.bytes = description.bytes();
             VulkanFrame frame(device_, description);
             upload(frame);
-            for (int i = 0; i < kWarmUps; ++i) runOnce(frame, timed.rounds);
+            for (int i = 0; i < kWarmUps; ++i) runOnce(frame, result.rounds);
             std::vector<Times> times;
-            const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-            while (times.size() < kFewestRepeats || std::chrono::steady_clock::now() < end) times.push_back(runOnce(frame, timed.rounds));
+            repeat(seconds, [&] { times.push_back(runOnce(frame, result.rounds)); });
             result.repeats = times.size();
             for (int row = 0; row < kTimedRows; ++row) {
-                std::sort(times.begin(), times.end(), [row](const Times& a, const Times& b) { return a.rows[row] < b.rows[row]; });
-                result.rows[row] = {times[times.size() / 2].rows[row], times.front().rows[row]};
+                std::vector<double> values;
+                for (const Times& one : times) values.push_back(one.rows[row]);
+                result.rows[row] = rowOf(values);
             }
             result.passes = times.front().passes;
             for (const Times& one : times) {
@@ -113,7 +126,36 @@ public:
         }
     }
 
+    // A picture with the light of one frame.
+    void timePicture(InjectWay way, double seconds, TimedFrame& timed) {
+        settings_.picture = uvec2(setting_.width, setting_.height);
+        VulkanFrame frame(device_, describe(way, TraceWay::walk));
+        upload(frame);
+        runOnce(frame, 1);
+        std::vector<double> times, walls;
+        repeat(seconds, [&] {
+            walls.push_back(millisecondsOf([&] { frame.run("picture"); }));
+            double sum = 0.0;
+            for (const auto& [pass, milliseconds] : frame.times("picture")) sum += milliseconds;
+            times.push_back(sum);
+        });
+        timed.picture = rowOf(times), timed.pictureWall = rowOf(walls);
+    }
+
 private:
+    // With as many rays as the device takes at a time.
+    Frame describe(InjectWay way, TraceWay trace) {
+        const bool slices = way == InjectWay::slices;
+        settings_.inject = way, settings_.trace = trace;
+        settings_.storage = slices ? kClvStorageCube : kClvStorageCube9, settings_.rule = slices ? kClvInjectThesis : kClvInjectTrackLength;
+        if (trace == TraceWay::query) settings_.accelerationBytes = device_.accelerationBytes(settings_.triangles);
+        settings_.rays = setting_.rays;
+        settings_.rays = std::min(setting_.rays, largestFrameRays(settings_, device_.info().limits));
+        Frame description = lightFrame(settings_);
+        description.buffers[description.bufferIndex("texels")].readBack = true;
+        return description;
+    }
+
     void upload(VulkanFrame& frame) {
         constants_.boundsLo = scene_.boundsLo, constants_.boundsHi = scene_.boundsHi;
         constants_.rayCount = uint(settings_.rays), constants_.halves = settings_.halves, constants_.seed = 1;
@@ -132,6 +174,12 @@ private:
         frame.upload("triangles", std::span(scene_.triangles));
         frame.upload("surfaces", std::span(scene_.surfaces));
         frame.upload("receivers", std::span(receivers_));
+        if (settings_.picture.x > 0) {
+            const StoredCamera& view = scene_.camera;
+            const float aspect = float(setting_.width) / float(setting_.height), nearest = 1e-4f * length(scene_.boundsHi - scene_.boundsLo);
+            frame.upload("camera", cameraFace(view.position, view.forward, view.up, view.yfov, aspect, nearest));
+            frame.upload("picture", ClvPicture{.ambient = vec3(0.01f), .ambientThreshold = 0.5f, .width = setting_.width, .height = setting_.height, .pad0 = 0, .pad1 = 0});
+        }
         frame.run("rsm");
         std::vector<ClvRsmTexel> texels(settings_.lights * kRsmSide * kRsmSide);
         frame.download("texels", std::span(texels));
@@ -157,9 +205,9 @@ private:
     Times runOnce(VulkanFrame& frame, std::uint64_t rounds) {
         Times times;
         const auto runStep = [&](const std::string& step) {
-            frame.run(step);
+            times.rows[kWallRow] += millisecondsOf([&] { frame.run(step); });
             for (const auto& [pass, milliseconds] : frame.times(step)) {
-                times.rows[rowOf(pass)] += milliseconds, times.rows[kTimedRows - 1] += milliseconds;
+                times.rows[rowOf(pass)] += milliseconds, times.rows[kFrameRow] += milliseconds;
                 times.passes[pass] += milliseconds;
             }
         };
@@ -169,7 +217,7 @@ private:
             runStep("light");
         }
         runStep("evaluate");
-        if (!(times.rows.back() > 0.0)) throw std::runtime_error("the device has no timestamps");
+        if (!(times.rows[kFrameRow] > 0.0)) throw std::runtime_error("the device has no timestamps");
         return times;
     }
 
@@ -193,7 +241,7 @@ std::vector<TimedSetting> timedSettings() {
             {.name = "4 cascades of 64^3, 1M rays, 1920x1080", .cells = 64, .cascades = 4, .rays = 1048576, .width = 1920, .height = 1080, .goal = 3.0}};
 }
 
-TimedFrame timeFrame(VulkanDevice& device, const StoredScene& scene, const TimedSetting& setting, double seconds, bool everyCell) {
+TimedFrame timeFrame(VulkanDevice& device, VulkanDevice& drawing, const StoredScene& scene, const TimedSetting& setting, double seconds, bool everyCell) {
     const ParallelFor parallelFor = threadsFor();
     const std::vector<ClvReceiver> receivers = visibleReceivers(scene, setting.width, setting.height, parallelFor);
     const std::vector<LevelInputs> levels = levelsOf(scene, volumesOf(scene, setting), receivers, everyCell, parallelFor);
@@ -204,6 +252,10 @@ TimedFrame timeFrame(VulkanDevice& device, const StoredScene& scene, const Timed
     const std::vector<InjectWay> ways = waysOf(device.info().features);
     for (const TraceWay trace : traces) timer.time(ways.front(), trace, seconds, timed);
     for (std::size_t i = 1; i < ways.size(); ++i) timer.time(ways[i], traces.front(), seconds, timed);
+    if (!device.info().features.draws) return timed;
+    FrameTimer drawn(drawing, scene, setting, receivers, levels);
+    if (drawsSlices(device.info().features)) drawn.time(InjectWay::slices, traces.front(), seconds, timed);
+    drawn.timePicture(ways.front(), seconds, timed);
     return timed;
 }
 

@@ -18,33 +18,38 @@ struct TimedSetting {
     double goal = 0.0;             // ms, on an NVIDIA H200; 0: none
 };
 
-// The rows of the thesis' Table 4.1, and all of them together; an RSM that stands still is not rendered again.
-constexpr int kTimedRows = 5;
-constexpr const char* kTimedRowNames[kTimedRows] = {"rays", "intersection", "volume", "applying", "frame"};
+// The rows of the thesis' Table 4.1, and all of them together, by the device's clock and by the host's; an RSM that stands still is not
+// rendered again.
+constexpr int kTimedRows = 6;
+constexpr int kVolumeRow = 2, kFrameRow = 4, kWallRow = 5;
+constexpr const char* kTimedRowNames[kTimedRows] = {"rays", "intersection", "volume", "applying", "frame", "wall"};
 
 struct TimedRow {
     double median = 0.0, minimum = 0.0;  // ms
 };
 
 struct TimedWay {
-    InjectWay way;
+    InjectWay way;                       // slices: by the thesis' rule, in its cube
     TraceWay trace = TraceWay::walk;
     TimedRow rows[kTimedRows] = {};
     std::map<std::string, double> passes{};  // shortest time of each, ms
     std::size_t repeats = 0;
+    std::uint64_t rounds = 0, bytes = 0;  // of one frame
     std::string failure{};               // one line, where the device could not run it
 };
 
 struct TimedFrame {
     TimedSetting setting;
-    std::uint64_t receivers = 0, slots = 0, rounds = 0, bytes = 0;
+    std::uint64_t receivers = 0, slots = 0;
+    TimedRow picture{}, pictureWall{};   // of as many pixels: drawn, and lit from the first volume by a deferred pass; 0: the device does not draw
     std::vector<TimedWay> ways{};        // the device's defaults first
 };
 
 // The settings that are timed: growing volumes, and those that goals are set for.
 std::vector<TimedSetting> timedSettings();
 
-// seconds: how long each way is repeated, at least. everyCell: cells that no pixel reads hold light, too.
-TimedFrame timeFrame(VulkanDevice& device, const StoredScene& scene, const TimedSetting& setting, double seconds, bool everyCell);
+// seconds: how long each way is repeated, at least. everyCell: cells that no pixel reads hold light, too. `drawing` is the same device
+// again, for passes that draw: the clock of llvmpipe goes wrong in a queue that has drawn.
+TimedFrame timeFrame(VulkanDevice& device, VulkanDevice& drawing, const StoredScene& scene, const TimedSetting& setting, double seconds, bool everyCell);
 
 }  // namespace clv

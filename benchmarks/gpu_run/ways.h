@@ -1,4 +1,4 @@
-// The ways to trace that a device can take, and those to inject, but for the slices of the thesis, whose lines are not the same everywhere.
+// The ways to trace and to inject that a device can take.
 #pragma once
 #include <string>
 #include <vector>
@@ -25,6 +25,9 @@ inline std::vector<TraceWay> traceWaysOf(const VulkanDeviceInfo& info) {
     if (defaultTrace(info) == TraceWay::query) return {TraceWay::query, TraceWay::walk};
     return {TraceWay::walk, TraceWay::query};
 }
+
+// Whether it draws the thesis' lines, and by the rule that the CPU knows.
+inline bool drawsSlices(const VulkanFeatures& features) { return features.draws && features.blendsFloats && features.diamondLines; }
 
 // The default first.
 inline std::vector<InjectWay> waysOf(const VulkanFeatures& features, std::uint32_t rule = kClvInjectTrackLength) {

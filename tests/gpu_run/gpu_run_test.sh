@@ -28,7 +28,7 @@ done
 
 # As on a machine that has a compiler, CMake and a Vulkan loader alone.
 expect endsWith 0 "$gpu" --pack "$work/pack" --build "$work/build" --bare --check-only --out "$work/gpu.json"
-for case in trace inject_cube9_colour whole_frame; do expect says "^pass  $case (hlsl"; done
+for case in trace trace_textured drawn_maps guided_rays inject_cube9_colour moving_lights slices whole_frame picture; do expect says "^pass  $case (hlsl"; done
 expect grep -q '"passed":true,"cases":\[{"name":' "$work/gpu.json"
 if grep -q '"passed":false' "$work/gpu.json"; then expect false; fi
 expect grep -q "\"commit\":\"$(<"$work/pack/commit")\",\"command\":\"gpu.sh --pack" "$work/gpu.json"
@@ -37,6 +37,7 @@ expect grep -q "\"commit\":\"$(<"$work/pack/commit")\",\"command\":\"gpu.sh --pa
 run=("$work/build/benchmarks/gpu_run/clv_gpu_run" --pack "$work/pack")
 expect endsWith 0 "${run[@]}" --scene cornell --only "16^3" --seconds 0 --out "$work/times.json"
 expect grep -q '"frames":\[{"name":"16^3, 64k rays",.*"fastest":"[a-z_]\+",.*"passes_minimum_ms":{"begin 0":[0-9]' "$work/times.json"
+expect grep -q '"inject":"slices",.*"volume":{"median_ms":[0-9].*"picture":{"median_ms":[0-9]' "$work/times.json"
 
 # A case that asks for more than can be: its last four bytes are the largest error that it allows.
 printf '\0\0\0\0' | dd of="$work/pack/cases/whole_frame.case" bs=1 seek=$(($(stat -c %s "$work/pack/cases/whole_frame.case") - 4)) conv=notrunc status=none

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "benchmarks/gpu_run/line_cells.h"
 #include "clv/cpu/aligned.h"
 #include "clv/cpu/inject.h"
 #include "vulkan/level_scene.h"
@@ -15,27 +16,6 @@ namespace {
 constexpr std::uint32_t kRays = 4096;
 constexpr double kUnit = 0x1p-24;  // rounding of a float
 constexpr ShaderLanguage kLanguages[] = {ShaderLanguage::glsl, ShaderLanguage::hlsl};
-
-// Cells that the line of a piece draws. On a step that passes between two cells to less than `kTie`, it draws either of them.
-constexpr double kTie = 1.0 / 64.0;
-template <class Sure, class Either>
-void forCellsOfLine(const ClvSlicePiece& piece, Sure&& sure, Either&& either) {
-    const ivec2 back = piece.begin - piece.end;
-    const int steps = std::max(std::abs(back.x), std::abs(back.y));
-    // The first point of a line is drawn, the last one is not; see clvLineVertex.
-    for (int k = 0; k < (piece.isFirst == 1 ? steps : steps + 1); ++k) {
-        const double share = steps > 0 ? double(k) / steps : 0.0;
-        const double x = piece.end.x + share * back.x, y = piece.end.y + share * back.y;
-        const ivec2 cell(int(std::floor(x + 0.5)), int(std::floor(y + 0.5)));
-        const double tieX = std::abs(x - std::floor(x) - 0.5), tieY = std::abs(y - std::floor(y) - 0.5);
-        if (std::min(tieX, tieY) < kTie) {
-            either(ivec2(int(std::floor(x)), int(std::floor(y))));
-            either(ivec2(int(std::ceil(x)), int(std::ceil(y))));
-        } else {
-            sure(cell);
-        }
-    }
-}
 
 // Bounds of what each half's sides hold: `sure` lies in every cell that a line passes through the middle of, `most` adds what may fall
 // either way. A number a slot, side and channel, in the order of the records.
