@@ -1,18 +1,8 @@
-// Moves the history towards this frame's estimate, four numbers a thread, and clears the integer sums for the next frame.
+// Merges sums of integers into a history of still light.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "clv/data/frame.h"
 #include "clv/stages/merge.h"
-layout(constant_id = CLV_SPEC_STRIDE) const uint stride = 32u;
-layout(local_size_x = CLV_GROUP_SIZE) in;
-layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
-layout(std140, binding = CLV_BIND_LEVEL) uniform LevelBlock { ClvLevelFrame level; };
-layout(std430, binding = CLV_BIND_DEPOSITS) buffer Deposits { ivec4 deposits[]; };
-layout(std430, binding = CLV_BIND_HISTORY) buffer History { vec4 history[]; };
-
-void main() {
-    uint i = clvItem(gl_GlobalInvocationID);
-    if (i >= frame.halves * level.slotCount * (stride / 4u)) return;
-    history[i] = clvMergeMean(history[i], vec4(deposits[i]) * (level.scale / level.fixedScale), level.weight);
-    deposits[i] = ivec4(0);
-}
+#include "fixed_sums.glsl"
+#include "still_weight.glsl"
+#include "merge.glsl"

@@ -6,4 +6,5 @@
 #include "bvh.glsl"
 #include "surface.glsl"
 #include "scene.glsl"
+#include "traced_texel.glsl"
 #include "rsm.glsl"

@@ -1,4 +1,4 @@
-// Body of rsm and rsm_textured: a texel of each light's reflective shadow map.
+// Body of the maps' passes: a texel of each light's reflective shadow map. The entry point includes before: traced_texel.glsl or drawn_texel.glsl.
 layout(local_size_x = CLV_GROUP_SIZE) in;
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
 layout(std430, binding = CLV_BIND_LIGHTS) readonly buffer Lights { ClvLight lights[]; };
@@ -12,5 +12,5 @@ void main() {
     uvec2 texel = uvec2(i % frame.rsmSide, i % perLight / frame.rsmSide);
     vec2 u = clvRsmSamplePoint(texel, frame.rsmSide, frame.rsmPass, clvHashCombine(frame.rsmSeed, light));
     ClvRay ray = clvLightRay(lights[light], u, frame.boundsLo, frame.boundsHi);
-    texels[i] = clvRsmTexelFromHit(ray, sceneHit(ray), 1.0 / float(perLight));
+    texels[i] = texelOfRay(frame, light, ray, 1.0 / float(perLight));
 }

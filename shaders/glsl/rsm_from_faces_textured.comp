@@ -7,4 +7,5 @@
 #include "clv/stages/rsm.h"
 #include "triangles.glsl"
 #include "textured_surface.glsl"
-#include "rsm_from_faces.glsl"
+#include "drawn_texel.glsl"
+#include "rsm.glsl"

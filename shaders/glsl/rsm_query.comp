@@ -7,4 +7,5 @@
 #include "query.glsl"
 #include "surface.glsl"
 #include "scene.glsl"
+#include "traced_texel.glsl"
 #include "rsm.glsl"

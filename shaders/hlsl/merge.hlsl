@@ -1,16 +1,6 @@
-// Moves the history towards this frame's estimate, four numbers a thread, and clears the sums for the next frame.
+// Merges sums of floats into a history of still light.
 #include "clv/data/frame.h"
 #include "clv/stages/merge.h"
-[[vk::constant_id(CLV_SPEC_STRIDE)]] const uint stride = 32u;
-[[vk::binding(CLV_BIND_FRAME)]] cbuffer FrameBlock { ClvFrame frame; };
-[[vk::binding(CLV_BIND_LEVEL)]] cbuffer LevelBlock { ClvLevelFrame level; };
-[[vk::binding(CLV_BIND_DEPOSITS)]] RWStructuredBuffer<float4> deposits;
-[[vk::binding(CLV_BIND_HISTORY)]] RWStructuredBuffer<float4> history;
-
-[numthreads(CLV_GROUP_SIZE, 1, 1)]
-void main(uint3 thread : SV_DispatchThreadID) {
-    uint i = clvItem(thread);
-    if (i >= frame.halves * level.slotCount * (stride / 4u)) return;
-    history[i] = clvMergeMean(history[i], deposits[i] * level.scale, level.weight);
-    deposits[i] = float4(0.0, 0.0, 0.0, 0.0);
-}
+#include "float_sums.hlsli"
+#include "still_weight.hlsli"
+#include "merge.hlsli"

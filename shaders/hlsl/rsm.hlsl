@@ -4,4 +4,5 @@
 #include "bvh.hlsli"
 #include "surface.hlsli"
 #include "scene.hlsli"
+#include "traced_texel.hlsli"
 #include "rsm.hlsli"

@@ -4,4 +4,5 @@
 #include "clv/stages/rsm.h"
 #include "triangles.hlsli"
 #include "surface.hlsli"
-#include "rsm_from_faces.hlsli"
+#include "drawn_texel.hlsli"
+#include "rsm.hlsli"

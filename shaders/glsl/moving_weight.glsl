@@ -1,0 +1,3 @@
+// The weight of this frame in a history of moving light: each slot stands for a number of frames.
+layout(std430, binding = CLV_BIND_SLOT_FRAMES) readonly buffer SlotFrames { float slotFrames[]; };
+float mergeWeight(uint i, uint vectors, float weight) { return 1.0 / slotFrames[i / vectors]; }

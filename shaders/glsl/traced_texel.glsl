@@ -1,0 +1,2 @@
+// What a light's ray finds, by tracing. The entry point includes before: scene.glsl and what that asks for.
+ClvRsmTexel texelOfRay(ClvFrame frame, uint light, ClvRay ray, float share) { return clvRsmTexelFromHit(ray, sceneHit(ray), share); }
