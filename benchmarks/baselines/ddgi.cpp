@@ -16,12 +16,12 @@
 namespace clv {
 namespace {
 
-// Texels of a probe's maps (Majercik et al. 2019, section 3.1).
+// Texels of a probe's maps (Majercik et al. 2019).
 using IrradianceMaps = OctahedralMaps<8, 3>;
 using DistanceMaps = OctahedralMaps<16, 2>;  // mean and mean square, m and m^2
-// Power of the cosine that weighs a ray's distance: distances are kept sharper than light (Majercik et al. 2019, section 4.3).
+// Power of the cosine that weighs a ray's distance: distances are kept sharper than light (Majercik et al. 2019).
 constexpr float kDistanceSharpness = 50.0f;
-// Distances are cut at so many diagonals of the grid's cells: what lies further is never asked for (Majercik et al. 2019, section 4.3).
+// Distances are cut at so many diagonals of the grid's cells: what lies further is never asked for (Majercik et al. 2019).
 constexpr float kLongestDistance = 1.5f;
 // Rays that measure distances once.
 constexpr std::size_t kDistanceRays = 1024;
@@ -186,7 +186,7 @@ private:
         blend<DistanceMaps, 2>(distance_, probe, directions_.size(), weights, share, moment, [](float x) { return x; });
     }
 
-    // Irradiance is pi times the mean of radiance, weighed by the cosine (Majercik et al. 2019, equation 1).
+    // Irradiance is pi times the mean of radiance, weighed by the cosine (Majercik et al. 2019).
     void blendIrradiance(std::size_t probe, const std::vector<float>& weights, float share) {
         const RayLight* light = light_.data() + probe * directions_.size();
         const auto value = [&](std::size_t r, int c) { return light[r].radiance[c] * kClvPi; };
@@ -217,7 +217,7 @@ private:
         return decode == 1.0f ? mean : mean * mean;
     }
 
-    // How much a probe tells of the light at a receiver (Majercik et al. 2019, section 5.2).
+    // How much a probe tells of the light at a receiver (Majercik et al. 2019).
     float visibility(std::uint32_t probe, const vec3& point, const ReferencePoint& receiver) const {
         const vec3 position = probes_.positions()[probe];
         // Probes behind the surface tell little, but are not ruled out: small bumps would lose all of theirs.

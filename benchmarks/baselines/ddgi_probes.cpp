@@ -6,13 +6,13 @@
 namespace clv {
 namespace {
 
-// Self-shadow bias (Majercik et al. 2021, equation 3): 0.3 of three quarters of the spacing, along the normal and towards the viewer;
+// Self-shadow bias (Majercik et al. 2021): 0.3 of three quarters of the spacing, along the normal and towards the viewer;
 // receivers here have no viewer, so that the normal stands for both.
 constexpr float kSelfShadowBias = 0.3f * 0.75f;
-// A probe lies in a solid where more of what its rays meet are back faces (Majercik et al. 2021, section 4.3). Rays that meet nothing
+// A probe lies in a solid where more of what its rays meet are back faces (Majercik et al. 2021). Rays that meet nothing
 // are left out: else probes behind the corners of a closed room would count as free.
 constexpr float kMostBackFaces = 0.25f;
-// How far a probe may be moved, in spacings: not as far as to its neighbour's side (Majercik et al. 2021, section 4.2).
+// How far a probe may be moved, in spacings: not as far as to its neighbour's side (Majercik et al. 2021).
 constexpr float kLongestMove = 0.45f;
 // How far a probe is kept from surfaces, in spacings, where it can be.
 constexpr float kClearance = 0.2f;

@@ -10,7 +10,7 @@ namespace clv {
 
 inline constexpr std::uint32_t kNoProbe = ~0u;
 
-// Evenly spread directions of unit length: the spherical Fibonacci lattice (Keinert et al. 2015, equation 1).
+// Evenly spread directions of unit length: the spherical Fibonacci lattice (Keinert et al. 2015).
 vec3 fibonacciDirection(std::size_t index, std::size_t count);
 
 // The eight probes around a point, with their trilinear weights.

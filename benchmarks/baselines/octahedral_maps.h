@@ -1,5 +1,5 @@
 // Maps of the sphere of directions, one a probe: an octahedral square of texels with a border of one, so that a bilinear reading never
-// leaves the square (Majercik et al. 2019, section 4.2).
+// leaves the square (Majercik et al. 2019).
 #pragma once
 #include <algorithm>
 #include <array>
