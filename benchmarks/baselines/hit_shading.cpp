@@ -10,7 +10,7 @@ namespace clv {
 
 std::size_t traceAndShade(const EmbreeScene& scene, std::span<ClvRay> rays, std::span<ClvHit> hits, std::span<glm::vec3> radiance) {
     assert(rays.size() <= kShadedRays && hits.size() == rays.size() && radiance.size() == rays.size());
-    scene.trace(rays, hits);
+    scene.traceFast(rays, hits);
     std::fill(radiance.begin(), radiance.end(), glm::vec3(0.0f));
     std::size_t traced = rays.size();
     std::array<ClvRay, kShadedRays> shadows;  // flux: what their light adds to the radiance
@@ -28,7 +28,7 @@ std::size_t traceAndShade(const EmbreeScene& scene, std::span<ClvRay> rays, std:
             shadows[asked++] = {.origin = position + hits[i].normal * scene.surfaceOffset(), .maxDistance = arriving.distance,
                                 .direction = arriving.towardsLight, .dynamicity = 0.0f, .flux = reflected, .pad0 = 0.0f};
         }
-        scene.killOccluded(std::span(shadows).first(asked));
+        scene.killOccludedFast(std::span(shadows).first(asked));
         for (std::size_t k = 0; k < asked; ++k) {
             if (shadows[k].maxDistance > 0.0f) radiance[owner[k]] += shadows[k].flux;
         }

@@ -150,6 +150,37 @@ struct EmbreeScene::Impl {
                 .albedo = scene.albedo(primitive, u, v),
                 .primitive = primitive};
     }
+
+    // Rays are seen from `frame`, that of `tree`.
+    void trace(RTCScene tree, const TightFrame& frame, std::span<ClvRay> rays, std::span<ClvHit> hits) const {
+        assert(rays.size() == hits.size());
+        RTCIntersectContext context = incoherentContext();
+        forEachPacket(rays.size(), [&](std::size_t first, std::size_t count) {
+            RTCRayHit16 packet;
+            const Lanes lanes = fillPacket(rays.subspan(first, count), packet.ray, frame);
+            std::fill_n(packet.hit.geomID, kPacket, kNone);
+            rtcIntersect16(lanes.valid, tree, &context, &packet);
+            for (std::size_t k = 0; k < count; ++k) {
+                ClvRay& ray = rays[first + k];
+                const bool met = lanes.valid[k] && packet.hit.geomID[k] != kNone;
+                if (met) ray.maxDistance = packet.ray.tfar[k];
+                hits[first + k] = met ? hitAt(ray.direction, ray.maxDistance, packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k]) : noHit();
+            }
+        });
+    }
+
+    void killOccluded(RTCScene tree, const TightFrame& frame, std::span<ClvRay> rays) const {
+        RTCIntersectContext context = incoherentContext();
+        forEachPacket(rays.size(), [&](std::size_t first, std::size_t count) {
+            RTCRay16 packet;
+            const Lanes lanes = fillPacket(rays.subspan(first, count), packet, frame);
+            rtcOccluded16(lanes.valid, tree, &context, &packet);
+            for (std::size_t k = 0; k < count; ++k) {
+                // Embree marks a ray that met something by an endless negative reach.
+                if (lanes.valid[k] && packet.tfar[k] < 0.0f) rays[first + k].maxDistance = 0.0f;
+            }
+        });
+    }
 };
 
 EmbreeScene::EmbreeScene(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -171,36 +202,11 @@ void EmbreeScene::trace(std::span<ClvRay> rays) const {
     });
 }
 
-void EmbreeScene::trace(std::span<ClvRay> rays, std::span<ClvHit> hits) const {
-    assert(rays.size() == hits.size());
-    RTCIntersectContext context = incoherentContext();
-    forEachPacket(rays.size(), [&](std::size_t first, std::size_t count) {
-        RTCRayHit16 packet;
-        const Lanes lanes = fillPacket(rays.subspan(first, count), packet.ray);
-        std::fill_n(packet.hit.geomID, kPacket, kNone);
-        rtcIntersect16(lanes.valid, impl_->watertight, &context, &packet);
-        for (std::size_t k = 0; k < count; ++k) {
-            ClvRay& ray = rays[first + k];
-            const bool met = lanes.valid[k] && packet.hit.geomID[k] != kNone;
-            if (met) ray.maxDistance = packet.ray.tfar[k];
-            hits[first + k] = met ? impl_->hitAt(ray.direction, ray.maxDistance, packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k])
-                                  : noHit();
-        }
-    });
-}
+void EmbreeScene::trace(std::span<ClvRay> rays, std::span<ClvHit> hits) const { impl_->trace(impl_->watertight, {}, rays, hits); }
+void EmbreeScene::traceFast(std::span<ClvRay> rays, std::span<ClvHit> hits) const { impl_->trace(impl_->fast, impl_->fastFrame, rays, hits); }
 
-void EmbreeScene::killOccluded(std::span<ClvRay> rays) const {
-    RTCIntersectContext context = incoherentContext();
-    forEachPacket(rays.size(), [&](std::size_t first, std::size_t count) {
-        RTCRay16 packet;
-        const Lanes lanes = fillPacket(rays.subspan(first, count), packet);
-        rtcOccluded16(lanes.valid, impl_->watertight, &context, &packet);
-        for (std::size_t k = 0; k < count; ++k) {
-            // Embree marks a ray that met something by an endless negative reach.
-            if (lanes.valid[k] && packet.tfar[k] < 0.0f) rays[first + k].maxDistance = 0.0f;
-        }
-    });
-}
+void EmbreeScene::killOccluded(std::span<ClvRay> rays) const { impl_->killOccluded(impl_->watertight, {}, rays); }
+void EmbreeScene::killOccludedFast(std::span<ClvRay> rays) const { impl_->killOccluded(impl_->fast, impl_->fastFrame, rays); }
 
 ClvHit EmbreeScene::hit(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const {
     RTCIntersectContext context = incoherentContext();

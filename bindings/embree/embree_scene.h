@@ -24,13 +24,16 @@ public:
     float surfaceOffset() const;
 
     // The trace stage: cuts each ray at its first hit (maxDistance becomes the hit distance; unchanged where nothing is hit within it).
-    // Dead rays (maxDistance 0) stay dead. Fast; about one ray in a million slips through an edge. All the queries below are
-    // watertight.
+    // Dead rays (maxDistance 0) stay dead. Fast; about one ray in a million slips through an edge. Queries that are not
+    // called fast are watertight.
     void trace(std::span<ClvRay> rays) const;
     // The same, and says what was hit. hits.size() == rays.size().
     void trace(std::span<ClvRay> rays, std::span<ClvHit> hits) const;
     // Kills (maxDistance 0) every ray that meets a surface within its maxDistance, and leaves the others as they are.
     void killOccluded(std::span<ClvRay> rays) const;
+    // The two above in the tree of the trace stage, for estimates that can spare a ray in a million.
+    void traceFast(std::span<ClvRay> rays, std::span<ClvHit> hits) const;
+    void killOccludedFast(std::span<ClvRay> rays) const;
     // Closest hit of one ray within [0, maxDistance].
     ClvHit hit(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const;
     bool occluded(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) const;

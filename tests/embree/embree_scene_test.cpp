@@ -87,11 +87,13 @@ TEST(EmbreeScene, packetsOfAnySizeAgreeWithSingleRays) {
     const EmbreeScene embree(scene);
     for (std::size_t count = 1; count <= 40; ++count) {
         const std::vector<ClvRay> rays = randomRays(count, 100 + uint(count));
-        std::vector<ClvRay> fast = rays, judged = rays, blocked = rays;
-        std::vector<ClvHit> hits(count);
+        std::vector<ClvRay> fast = rays, judged = rays, blocked = rays, fastJudged = rays, fastBlocked = rays;
+        std::vector<ClvHit> hits(count), fastHits(count);
         embree.trace(fast);
         embree.trace(judged, hits);
         embree.killOccluded(blocked);
+        embree.traceFast(fastJudged, fastHits);
+        embree.killOccludedFast(fastBlocked);
         for (std::size_t i = 0; i < count; ++i) {
             const ClvHit single = embree.hit(rays[i].origin, rays[i].direction, kClvFar);
             EXPECT_EQ(hits[i].primitive, single.primitive);
@@ -102,6 +104,11 @@ TEST(EmbreeScene, packetsOfAnySizeAgreeWithSingleRays) {
             EXPECT_NEAR(fast[i].maxDistance, single.distance, 1e-6f * (1.0f + single.distance));
             EXPECT_EQ(embree.occluded(rays[i].origin, rays[i].direction, kClvFar), single.distance < kClvFar);
             EXPECT_EQ(blocked[i].maxDistance, single.distance < kClvFar ? 0.0f : kClvFar);
+            EXPECT_EQ(fastHits[i].primitive, single.primitive);
+            EXPECT_EQ(fastHits[i].normal, single.normal);
+            EXPECT_EQ(fastHits[i].albedo, single.albedo);
+            EXPECT_EQ(fastJudged[i].maxDistance, fast[i].maxDistance);
+            EXPECT_EQ(fastBlocked[i].maxDistance, blocked[i].maxDistance);
         }
     }
 }
