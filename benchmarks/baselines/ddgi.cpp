@@ -83,7 +83,8 @@ public:
                 {"readers", readersName(settings_.readers)},
                 {"hysteresis", fmt::format("{:g}", settings_.hysteresis)},
                 {"encoding", fmt::format("{:g}", settings_.encoding)},
-                {"distances", settings_.distancesOnce ? "once" : "each frame"}};
+                {"distances", settings_.distancesOnce ? "once" : "each frame"},
+                {"weights", keepsWeights() ? "kept" : "at each reading"}};
     }
 
     void prepare(const MethodWorld& world, std::span<const ReferencePoint> receivers) override {
@@ -92,6 +93,8 @@ public:
         probes_.place(world, settings_.resolution, settings_.gridShift, settings_.readers, receivers);
         distance_.clear(probes_.positions().size());
         if (settings_.distancesOnce) measureDistances();
+        cages_.resize(keepsWeights() ? receivers_.size() : 0);
+        forReceivers(cages_.size(), [&](std::size_t i) { cages_[i] = weighedCage(receivers_[i]); });
         restart(1);
     }
 
@@ -116,18 +119,27 @@ public:
     }
 
     void irradiance(std::span<glm::vec3> out) override {
-        constexpr std::size_t kPiece = 256;
-        world_->parallelFor((out.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t i = piece * kPiece; i < std::min(out.size(), (piece + 1) * kPiece); ++i) {
-                out[i] = frames_ > 0 ? lookUp(receivers_[i]) : vec3(0.0f);
-            }
+        forReceivers(out.size(), [&](std::size_t i) {
+            out[i] = frames_ > 0 ? lookUp(receivers_[i].normal, keepsWeights() ? cages_[i] : weighedCage(receivers_[i])) : vec3(0.0f);
         });
     }
 
-    std::size_t bytes() const override { return irradiance_.bytes() + distance_.bytes() + probes_.bytes() + light_.size() * sizeof(RayLight); }
+    std::size_t bytes() const override { 
+        return irradiance_.bytes() + distance_.bytes() + probes_.bytes() + light_.size() * sizeof(RayLight) + cages_.size() * sizeof(ProbeCage);
+    }
     std::uint64_t raysTraced() const override { return traced_; }
 
 private:
+    bool keepsWeights() const { return settings_.keptWeights && settings_.distancesOnce; }
+
+    template <class Body>
+    void forReceivers(std::size_t count, const Body& body) const {
+        constexpr std::size_t kPiece = 256;
+        world_->parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
+            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i);
+        });
+    }
+
     template <class Body>
     void forProbes(const Body& body) {
         constexpr std::size_t kPiece = 64;
@@ -195,25 +207,30 @@ private:
         blend<IrradianceMaps, 3>(irradiance_, probe, directions_.size(), weights, share, value, encode);
     }
 
-    vec3 lookUp(const ReferencePoint& receiver) const {
+    // The probes that a receiver reads; weights sum to 1, or are all 0 where no probe stands.
+    ProbeCage weighedCage(const ReferencePoint& receiver) const {
         const vec3 point = probes_.biased(receiver.position, receiver.normal);
-        const ProbeCage cage = probes_.cageAround(point);
-        // Encoded irradiance is mixed as its square root, about as bright as it looks.
-        const float decode = settings_.encoding == 1.0f ? 1.0f : 0.5f * settings_.encoding;
-        vec3 sum(0.0f);
+        ProbeCage cage = probes_.cageAround(point);
         float total = 0.0f;
         for (int k = 0; k < 8; ++k) {
-            const std::uint32_t probe = cage.probe[k];
-            if (probe == kNoProbe) continue;
-            const float weight = visibility(probe, point, receiver) * cage.weight[k];
-            const auto stored = irradiance_.read(probe, receiver.normal);
-            vec3 value(stored[0], stored[1], stored[2]);
-            if (decode != 1.0f) value = glm::pow(value, vec3(decode));
-            sum += weight * value;
-            total += weight;
+            cage.weight[k] = cage.probe[k] == kNoProbe ? 0.0f : cage.weight[k] * visibility(cage.probe[k], point, receiver);
+            total += cage.weight[k];
         }
-        if (!(total > 0.0f)) return vec3(0.0f);
-        const vec3 mean = sum / total;
+        for (float& weight : cage.weight) weight = total > 0.0f ? weight / total : 0.0f;
+        return cage;
+    }
+
+    vec3 lookUp(const vec3& normal, const ProbeCage& cage) const {
+        // Encoded irradiance is mixed as its square root, about as bright as it looks.
+        const float decode = settings_.encoding == 1.0f ? 1.0f : 0.5f * settings_.encoding;
+        const auto place = IrradianceMaps::place(normal);
+        vec3 mean(0.0f);
+        for (int k = 0; k < 8; ++k) {
+            if (!(cage.weight[k] > 0.0f)) continue;
+            const auto stored = irradiance_.read(cage.probe[k], place);
+            const vec3 value(stored[0], stored[1], stored[2]);
+            mean += cage.weight[k] * (decode == 1.0f ? value : glm::pow(value, vec3(decode)));
+        }
         return decode == 1.0f ? mean : mean * mean;
     }
 
@@ -242,6 +259,7 @@ private:
     std::optional<MethodWorld> world_;
     std::vector<ReferencePoint> receivers_;
     DdgiProbes probes_;
+    std::vector<ProbeCage> cages_;  // a receiver each, where weights are kept
     IrradianceMaps irradiance_;  // W/m^2, encoded
     DistanceMaps distance_;
     std::vector<vec3> directions_;  // of a frame's rays, from every probe

@@ -22,6 +22,8 @@ struct DdgiSettings {
     float encoding = 5.0f;
     // Distances are measured once, for a scene that stands still, instead of by the rays of each frame as in the papers.
     bool distancesOnce = true;
+    // Receivers stand still: their weights are found at set-up, not at each reading. For distances that are measured once.
+    bool keptWeights = true;
 };
 
 // A frame sends the same number of rays, at least one, from every probe.

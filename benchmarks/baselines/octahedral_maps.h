@@ -43,26 +43,35 @@ public:
         copy(map, {Side + 1, 0}, {1, Side});
     }
 
-    // Bilinear between the four texels around a direction of unit length.
-    Value read(std::size_t map, const vec3& direction) const {
-        const vec2 place = (clvOctahedralFromDirection(direction) * 0.5f + 0.5f) * float(Side) + 0.5f;
+    // The four texels around a direction of unit length, and their bilinear weights; the same in every map.
+    struct Place {
+        std::array<std::size_t, 4> texel;
+        std::array<float, 4> weight;
+    };
+    static Place place(const vec3& direction) {
+        const vec2 p = (clvOctahedralFromDirection(direction) * 0.5f + 0.5f) * float(Side) + 0.5f;
         // Clamped: rounding can put a direction on the outer edge of the border.
-        const ivec2 low(std::min(int(place.x), Side), std::min(int(place.y), Side));
-        const vec2 f = place - vec2(low);
-        const float weight[4] = {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y};
-        const float* corner[4] = {at(map, low.x, low.y), at(map, low.x + 1, low.y), at(map, low.x, low.y + 1), at(map, low.x + 1, low.y + 1)};
+        const ivec2 low(std::min(int(p.x), Side), std::min(int(p.y), Side));
+        const vec2 f = p - vec2(low);
+        const std::size_t first = offset(low.x, low.y), above = offset(low.x, low.y + 1);
+        return {{first, first + Channels, above, above + Channels}, {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
+    }
+    Value read(std::size_t map, const Place& place) const {
+        const float* floats = floats_.data() + map * kStride;
         Value value{};
         for (int k = 0; k < 4; ++k)
-            for (int c = 0; c < Channels; ++c) value[c] += weight[k] * corner[k][c];
+            for (int c = 0; c < Channels; ++c) value[c] += place.weight[k] * floats[place.texel[k] + c];
         return value;
     }
+    Value read(std::size_t map, const vec3& direction) const { return read(map, place(direction)); }
 
 private:
     static constexpr int kRow = Side + 2;
     static constexpr std::size_t kStride = std::size_t(kRow) * kRow * Channels;
 
-    float* at(std::size_t map, int x, int y) { return floats_.data() + map * kStride + std::size_t(y * kRow + x) * Channels; }
-    const float* at(std::size_t map, int x, int y) const { return const_cast<OctahedralMaps*>(this)->at(map, x, y); }
+    // Of a texel, the border counted, in its map.
+    static std::size_t offset(int x, int y) { return std::size_t(y * kRow + x) * Channels; }
+    float* at(std::size_t map, int x, int y) { return floats_.data() + map * kStride + offset(x, y); }
     void copy(std::size_t map, ivec2 to, ivec2 from) { std::copy_n(at(map, from.x, from.y), Channels, at(map, to.x, to.y)); }
 
     std::vector<float> floats_;

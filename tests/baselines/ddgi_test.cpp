@@ -135,6 +135,13 @@ TEST(Ddgi, distancesOfEachFrameLeadToTheSameLight) {
     EXPECT_NEAR(errorsOf(room, settings, 4, 1 << 20).rmse, once, 0.1 * once);
 }
 
+TEST(Ddgi, weightsFoundAtEachReadingAreThoseThatAreKept) {
+    const MeasuredRoom room("two_rooms", 200, 1);
+    const auto kept = makeDdgi({.resolution = 10, .keptWeights = true}), each = makeDdgi({.resolution = 10, .keptWeights = false});
+    for (const auto& method : {kept.get(), each.get()}) method->prepare(room.world(), room.points);
+    EXPECT_EQ(lightAfter(*kept, room, 1, 1, 16 << 10), lightAfter(*each, room, 1, 1, 16 << 10));
+}
+
 TEST(Ddgi, lightFollowsFromTheSeed) {
     expectLightFollowsFromTheSeed([] { return makeDdgi({.resolution = 6, .distancesOnce = false}); }, 16 << 10);
 }
