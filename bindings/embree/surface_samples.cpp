@@ -31,6 +31,23 @@ bool seesFronts(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint
     return fronts > backs;
 }
 
+// The bits of a 10-bit number, two places apart.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+// Which way the receiver faces, then its place along a Z-order curve through the bounds (Morton 1966).
+std::uint64_t placeOf(const ClvReceiver& receiver, const Bounds& bounds) {
+    const vec3 n = glm::abs(receiver.normal);
+    const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+    const std::uint64_t facing = 2u * std::uint32_t(axis) + (receiver.normal[axis] < 0.0f ? 1u : 0u);
+    const vec3 at = glm::clamp((receiver.position - bounds.lo) / glm::max(bounds.extent(), vec3(1e-30f)), 0.0f, 1.0f) * 1023.0f;
+    return facing << 30 | spread(std::uint32_t(at.x)) | spread(std::uint32_t(at.y)) << 1 | spread(std::uint32_t(at.z)) << 2;
+}
+
 }  // namespace
 
 SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor) {
@@ -62,8 +79,12 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
     });
     SurfaceSamples samples;
     samples.area = float(total / double(count));
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
     for (std::size_t k = 0; k < 2 * count; ++k) {
-        if (!kept[k]) continue;
+        if (kept[k]) order.emplace_back(placeOf(all.receivers[k], scene.bounds), k);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [place, k] : order) {
         samples.receivers.push_back(all.receivers[k]);
         samples.albedo.push_back(all.albedo[k / 2]);
     }

@@ -1,5 +1,6 @@
 // Samples of surfaces stand for their area, on the sides that light can reach.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +45,18 @@ TEST(SurfaceSamples, aClosedRoomIsSampledInsideOnlyAndInProportionToArea) {
         onFloor += red;
     }
     EXPECT_NEAR(double(onFloor) * samples.area, 6.0, 2.0 * samples.area);
+}
+
+TEST(SurfaceSamples, areInAnOrderInWhichNeighboursAreNear) {
+    const SurfaceSamples samples = samplesOf(insideOfABox());
+    std::size_t near = 0, turns = 0;
+    for (std::size_t i = 1; i < samples.receivers.size(); ++i) {
+        const ClvReceiver &a = samples.receivers[i - 1], &b = samples.receivers[i];
+        near += glm::length(a.position - b.position) < 3.0f * std::sqrt(samples.area);
+        turns += glm::dot(a.normal, b.normal) < 0.5f;
+    }
+    EXPECT_EQ(turns, 5u) << "each of six faces is left once";
+    EXPECT_GT(near, samples.receivers.size() * 8 / 10);
 }
 
 TEST(SurfaceSamples, twoSheetsSendOnFromTheSidesThatSeeAFront) {
