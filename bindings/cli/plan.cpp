@@ -1,10 +1,14 @@
-// clv plan: what a scene needs, what is left out and why, and the memory of each resolution before it is taken.
+// clv plan: what a scene needs, what is left out and why, the memory of each resolution before it is taken, and what a budget buys.
 #include <memory>
 #include <span>
 
+#include <fmt/format.h>
+
+#include "benchmarks/report/trials.h"
 #include "bindings/cli/command_line.h"
 #include "bindings/cli/light_options.h"
 #include "bindings/cli/options.h"
+#include "bindings/cli/plan_choice.h"
 #include "bindings/cli/scene_facts.h"
 
 namespace clv {
@@ -36,6 +40,7 @@ struct PlanCommand {
     CommonOptions common;
     SceneOptions scene;
     LightOptions light;
+    ChoiceOptions choice;
 
     void run(const CLI::App& command) const {
         Report report = startReport(command, common);
@@ -55,6 +60,10 @@ struct PlanCommand {
             const std::span<const int> resolutions = light.resolution > 0 ? std::span(&light.resolution, 1) : std::span(kResolutions);
             for (int resolution : resolutions) report["resolutions"].push_back(describeResolution(loaded, resolution, light, needs));
         }
+        if (choice.asked()) {
+            if (!needs.stages) throw InputError(fmt::format("{}: no light to plan for", scene.scene));
+            chooseSetting(loaded, light.resolution > 0 ? std::span(&light.resolution, 1) : std::span(kTrialResolutions), choice, common, report);
+        }
         printReport(report, common);
     }
 };
@@ -62,10 +71,11 @@ struct PlanCommand {
 }  // namespace
 
 void addPlanCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plan", "Say what a scene needs, what is left out and why, and the memory it takes");
+    CLI::App* command = app.add_subcommand("plan", "Say what a scene needs, what is left out and why, the memory it takes, and which setting a budget buys");
     auto options = std::make_shared<PlanCommand>();
     addSceneOptions(*command, options->scene, true);
     addLightOptions(*command, options->light);
+    addChoiceOptions(*command, options->choice);
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });
 }
