@@ -71,6 +71,7 @@ std::string CurveLabels::curve(const Measurement& m) const {
 }
 
 std::string CurveLabels::setting(const Measurement& m) const {
+    if (m.raysTraced == 0) return fmt::format("{}, {} frame{}", curve(m), m.frames, m.frames > 1 ? "s" : "");
     const std::string frames = m.frames > 1 ? fmt::format("{} frames of ", m.frames) : "";
     return fmt::format("{}, {}{} rays", curve(m), frames, countText(m.rays));
 }
@@ -114,7 +115,7 @@ double ErrorFall::at(double work) const {
 }
 
 std::optional<ErrorFall> fitErrorFall(std::span<const double> work, std::span<const double> errors) {
-    if (work.size() < 3) return {};
+    if (work.size() < 3 || std::ranges::min(work) <= 0.0 || std::ranges::min(errors) <= 0.0) return {};
     const double least = *std::ranges::min_element(errors);
     ErrorFall best;
     double bestMisfit = std::numeric_limits<double>::infinity();

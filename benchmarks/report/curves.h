@@ -32,7 +32,7 @@ public:
     explicit CurveLabels(std::span<const Measurement> all);
 
     std::string curve(const Measurement& m) const;
-    // With rays and frames: "ddgi (resolution 16), 4 frames of 64k rays".
+    // With rays and frames: "ddgi (resolution 16), 4 frames of 64k rays"; with frames alone where no rays are traced.
     std::string setting(const Measurement& m) const;
 
 private:
@@ -58,7 +58,7 @@ struct ErrorFall {
 
     double at(double work) const;
 };
-// Fits it to at least three pairs in logarithms; nothing for fewer.
+// Fits it to at least three pairs in logarithms; nothing for fewer, or where one has no logarithm.
 std::optional<ErrorFall> fitErrorFall(std::span<const double> work, std::span<const double> errors);
 
 }  // namespace clv

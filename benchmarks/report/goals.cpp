@@ -97,7 +97,7 @@ private:
     }
 
     void reachesWhatNeverIsReached() {
-        const Points own = points(method(kLibraryName)), rival = points(method("lpv"));
+        const Points own = points(method(kLibraryName)), rival = points(method("light_propagation"));
         if (own.empty() || rival.empty()) return;
         const double least = paretoFront(own, pointReaders_).back()->errors.relativeRmse, theirs = paretoFront(rival, pointReaders_).back()->errors.relativeRmse;
         results_.push_back({"against light propagation volumes: reaches errors that they never reach", scene_,

@@ -101,7 +101,7 @@ std::string errorOverRays(const std::vector<Curve>& curves, const CurveLabels& l
         std::vector<double> rays, errors;
         for (const Measurement* m : curves[i].points) rays.push_back(work(*m)), errors.push_back(m->errors.relativeRmse);
         const auto fall = fitErrorFall(rays, errors);
-        if (!fall) continue;
+        if (!fall) continue;  // too few measurements, or no rays
         ChartSeries fitted{.points = {}, .color = chartColor(i), .markers = false, .width = 1.0f};
         const auto [least, most] = std::ranges::minmax(rays);
         constexpr int kSteps = 32;

@@ -1,6 +1,7 @@
 #include "benchmarks/report/report_plans.h"
 
 #include "benchmarks/baselines/ddgi.h"
+#include "benchmarks/baselines/light_propagation.h"
 #include "benchmarks/baselines/light_volume.h"
 #include "benchmarks/baselines/path_tracing.h"
 #include "benchmarks/baselines/thesis.h"
@@ -22,6 +23,11 @@ MethodCase thesis(const ThesisSettings& settings, std::vector<std::uint64_t> ray
     return {.make = [settings] { return makeThesis(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
 
+// Traces no rays, whatever it is asked for.
+MethodCase propagation(const LightPropagationSettings& settings, std::vector<int> frames) {
+    return {.make = [settings] { return makeLightPropagation(settings); }, .rays = {1}, .frames = std::move(frames)};
+}
+
 }  // namespace
 
 ReportPlan quickPlan() {
@@ -36,6 +42,8 @@ ReportPlan quickPlan() {
         {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
         thesis({.resolution = 16}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         thesis({.resolution = 32}, {64 * kThousand}, {1, 4, 16}),
+        propagation({.resolution = 16, .iterations = 8}, {1, 4}),
+        propagation({.resolution = 32}, {1, 4}),
         ddgi({.resolution = 8}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
@@ -66,6 +74,9 @@ ReportPlan fullPlan() {
     }
     for (const int resolution : {16, 32, 64}) {
         for (const float blend : {0.05f, 0.2f}) plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {16 * kThousand, 64 * kThousand, 512 * kThousand}, frames));
+    }
+    for (const int resolution : {16, 32, 64}) {
+        for (const int iterations : {4, 16}) plan.cases.push_back(propagation({.resolution = resolution, .iterations = iterations}, {1, 4, 16}));
     }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;

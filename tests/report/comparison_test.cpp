@@ -11,7 +11,7 @@ using namespace clv;
 Measurement made(const std::string& method, double milliseconds, double error, const std::string& program) {
     Measurement m;
     m.key = "hall; " + method + "; 3 repeats; " + program;
-    m.scene = "hall", m.method = method, m.rays = 1024;
+    m.scene = "hall", m.method = method, m.rays = m.raysTraced = 1024;
     m.frameSecondsLeast = 1e-3 * milliseconds, m.errors.relativeRmse = error, m.errorInterval = 0.03;
     return m;
 }

@@ -11,7 +11,7 @@ using namespace clv;
 
 Measurement made(const std::string& method, double milliseconds, double error, std::uint64_t rays = 1) {
     Measurement m;
-    m.scene = std::string(1, 's'), m.method = method, m.rays = rays;
+    m.scene = std::string(1, 's'), m.method = method, m.rays = m.raysTraced = rays;
     m.frameSeconds = 1e-3 * milliseconds, m.errors.relativeRmse = error;
     m.receivers = 100;
     return m;
@@ -75,6 +75,8 @@ TEST(Curves, aFallWithAFloorIsFound) {
     EXPECT_NEAR(fall->floor, 0.03, 0.001);
     EXPECT_NEAR(fall->at(5e4), std::hypot(0.03, 20.0 * std::pow(5e4, -0.55)), 1e-3);
     EXPECT_FALSE(fitErrorFall(std::span(work).first(2), std::span(errors).first(2)));
+    work[0] = 0.0;
+    EXPECT_FALSE(fitErrorFall(work, errors)) << "no rays";
 }
 
 TEST(Curves, labelsHoldTheSettingsThatTellAMethodsCurvesApart) {
@@ -86,6 +88,8 @@ TEST(Curves, labelsHoldTheSettingsThatTellAMethodsCurvesApart) {
     EXPECT_EQ(labels.setting(all[0]), "a (resolution 16), 64k rays");
     EXPECT_EQ(labels.setting(all[1]), "a (resolution 32), 16 frames of 1M rays");
     EXPECT_EQ(labels.curve(all[2]), "b");
+    all[2].raysTraced = 0, all[2].frames = 4;
+    EXPECT_EQ(labels.setting(all[2]), "b, 4 frames");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST(Goals, theChosenResolutionIsHeldAgainstFixedOnesWithTheSameRays) {
 }
 
 TEST(Goals, theThesisMustNotBeOnTheFront) {
-    std::vector<Measurement> all = {made("clv", kChosen, 1, 0.1), made("thesis", {}, 2, 0.2), made("lpv", {}, 2, 0.3)};
+    std::vector<Measurement> all = {made("clv", kChosen, 1, 0.1), made("thesis", {}, 2, 0.2), made("light_propagation", {}, 2, 0.3)};
     const auto beaten = judgeGoals(all, 1000, 10000);
     EXPECT_TRUE(find(beaten, "thesis")->reached);
     EXPECT_TRUE(find(beaten, "propagation")->reached);
