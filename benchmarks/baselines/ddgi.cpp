@@ -11,7 +11,8 @@
 #include "benchmarks/baselines/ddgi_probes.h"
 #include "benchmarks/baselines/hit_shading.h"
 #include "benchmarks/baselines/octahedral_maps.h"
-#include "clv/math/hash.h"
+#include "clv/math/sampling.h"
+#include "clv/math/sobol.h"
 
 namespace clv {
 namespace {
@@ -84,6 +85,7 @@ public:
                 {"hysteresis", fmt::format("{:g}", settings_.hysteresis)},
                 {"encoding", fmt::format("{:g}", settings_.encoding)},
                 {"distances", settings_.distancesOnce ? "once" : "each frame"},
+                {"rays", settings_.turnedRays ? "turned" : "sequence"},
                 {"weights", keepsWeights() ? "kept" : "at each reading"}};
     }
 
@@ -100,7 +102,7 @@ public:
 
     void restart(std::uint32_t seed) override {
         seed_ = seed;
-        frames_ = 0;
+        frames_ = aimed_ = 0;
         traced_ = 0;
         irradiance_.clear(probes_.positions().size());
         if (!settings_.distancesOnce) distance_.clear(probes_.positions().size());
@@ -109,7 +111,7 @@ public:
     void frame(std::size_t rays) override {
         const std::size_t probes = probes_.positions().size();
         if (probes == 0) return;
-        turnRays(std::max<std::size_t>(1, rays / probes), randomRotation(seed_, frames_));
+        aimRays(std::max<std::size_t>(1, rays / probes));
         light_.resize(probes * directions_.size());
         traceRays();
         const float share = std::max(1.0f - settings_.hysteresis, 1.0f / float(++frames_));
@@ -149,9 +151,16 @@ private:
         });
     }
 
-    void turnRays(std::size_t count, const mat3& rotation) {
+    // The directions of the next frame's rays, the same from every probe.
+    void aimRays(std::size_t count) {
+        const mat3 turn = randomRotation(seed_, frames_);
         directions_.resize(count);
-        for (std::size_t k = 0; k < count; ++k) directions_[k] = rotation * fibonacciDirection(k, count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint32_t index = aimed_ + std::uint32_t(k);
+            directions_[k] = settings_.turnedRays ? turn * fibonacciDirection(k, count)
+                                                  : clvSphereFromSquare(vec2(clvSobolUnit(index, 0u, seed_), clvSobolUnit(index, 1u, seed_)));
+        }
+        aimed_ += std::uint32_t(count);
     }
 
     // Rays of all probes, one probe's after the other's.
@@ -175,7 +184,7 @@ private:
 
     void measureDistances() {
         const std::size_t probes = probes_.positions().size();
-        turnRays(kDistanceRays, mat3(1.0f));
+        for (std::size_t k = 0; k < kDistanceRays; ++k) directions_.push_back(fibonacciDirection(k, kDistanceRays));
         const auto weights = distanceWeights();
         world_->parallelFor(probes, [&](std::size_t probe) {
             std::vector<ClvRay> rays(kDistanceRays);
@@ -265,6 +274,7 @@ private:
     std::vector<vec3> directions_;  // of a frame's rays, from every probe
     std::vector<RayLight> light_;   // that they found
     std::uint32_t seed_ = 1, frames_ = 0;
+    std::uint32_t aimed_ = 0;  // rays of each probe, so far
     std::atomic<std::uint64_t> traced_ = 0;
 };
 

@@ -20,6 +20,9 @@ struct DdgiSettings {
     float hysteresis = 0.97f;
     // Irradiance is kept, and blended, as its root of this order: 5 in the papers; 1 keeps it linear.
     float encoding = 5.0f;
+    // A frame's rays are a Fibonacci lattice, turned at random, as in the papers: the least noise in one frame. Otherwise they go on in one
+    // Owen-scrambled Sobol' sequence: the least in the mean of many.
+    bool turnedRays = true;
     // Distances are measured once, for a scene that stands still, instead of by the rays of each frame as in the papers.
     bool distancesOnce = true;
     // Receivers stand still: their weights are found at set-up, not at each reading. For distances that are measured once.

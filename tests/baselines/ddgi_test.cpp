@@ -135,6 +135,14 @@ TEST(Ddgi, distancesOfEachFrameLeadToTheSameLight) {
     EXPECT_NEAR(errorsOf(room, settings, 4, 1 << 20).rmse, once, 0.1 * once);
 }
 
+TEST(Ddgi, raysOfOneSequenceFillEachOthersGaps) {
+    const MeasuredRoom room("two_rooms", 300, 2048);
+    DdgiSettings settings{.resolution = 16, .readers = Readers::receivers, .hysteresis = 1.0f, .encoding = 1.0f};
+    const double turned = errorsOf(room, settings, 32, 32 << 10).rmse;
+    settings.turnedRays = false;
+    EXPECT_LT(errorsOf(room, settings, 32, 32 << 10).rmse, 0.8 * turned);
+}
+
 TEST(Ddgi, weightsFoundAtEachReadingAreThoseThatAreKept) {
     const MeasuredRoom room("two_rooms", 200, 1);
     const auto kept = makeDdgi({.resolution = 10, .keptWeights = true}), each = makeDdgi({.resolution = 10, .keptWeights = false});
