@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::uint64_t kThousand = 1 << 10, kMillion = 1 << 20;
 
+// DDGI where nothing moves: the plain mean of linear irradiance, over rays of one sequence.
+const DdgiSettings kDdgiMean{.hysteresis = 1.0f, .encoding = 1.0f, .turnedRays = false};
+
 MethodCase lightVolume(const LightVolumeSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames = {1}) {
     return {.make = [settings] { return makeLightVolume(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
@@ -42,10 +45,12 @@ ReportPlan quickPlan() {
         {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
         thesis({.resolution = 16}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         thesis({.resolution = 32}, {64 * kThousand}, {1, 4, 16}),
+        propagation({.resolution = 8, .iterations = 16}, {1, 4}),
         propagation({.resolution = 16, .iterations = 8}, {1, 4}),
         propagation({.resolution = 32}, {1, 4}),
         ddgi({.resolution = 8}, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
+        ddgi(kDdgiMean, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
     };
     plan.truth = {.points = 1000, .pictureWidth = 64, .samples = 8192};
@@ -68,15 +73,18 @@ ReportPlan fullPlan() {
     plan.cases.push_back({.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion, 16 * kMillion}});
     for (const Readers readers : {Readers::surfaces, Readers::anywhere}) {
         for (const int resolution : {8, 16, 32}) {
-            for (const float hysteresis : {0.97f, 1.0f})
-                plan.cases.push_back(ddgi({.resolution = resolution, .readers = readers, .hysteresis = hysteresis}, {64 * kThousand, 512 * kThousand}, frames));
+            for (DdgiSettings settings : {DdgiSettings(), kDdgiMean}) {
+                settings.resolution = resolution, settings.readers = readers;
+                plan.cases.push_back(ddgi(settings, {64 * kThousand, 512 * kThousand}, frames));
+            }
         }
     }
     for (const int resolution : {16, 32, 64}) {
         for (const float blend : {0.05f, 0.2f}) plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {16 * kThousand, 64 * kThousand, 512 * kThousand}, frames));
     }
-    for (const int resolution : {16, 32, 64}) {
-        for (const int iterations : {4, 16}) plan.cases.push_back(propagation({.resolution = resolution, .iterations = iterations}, {1, 4, 16}));
+    // Light crosses the scene in about as many steps as it has cells along an axis.
+    for (const int resolution : {8, 16, 32}) {
+        for (const int iterations : {resolution, 2 * resolution}) plan.cases.push_back(propagation({.resolution = resolution, .iterations = iterations}, {1, 4, 16}));
     }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;
