@@ -80,7 +80,8 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series, std::size_t index) 
     plot->SetInputData(table, 0, 1);
     plot->SetColor(series.color.r, series.color.g, series.color.b, 255);
     plot->SetWidth(series.width);
-    constexpr int kMarkers[] = {vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND, vtkPlotPoints::CROSS};
+    // Filled ones: viewers disagree on how lines scale in the others.
+    constexpr int kMarkers[] = {vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND};
     plot->SetMarkerStyle(series.markers ? kMarkers[index % std::size(kMarkers)] : int(vtkPlotPoints::NONE));
     plot->SetMarkerSize(8.0f);
 }
@@ -122,6 +123,7 @@ std::string svgOf(const Chart& chart, int width, int height) {
     svg->SetAttribute("width", std::to_string(width).c_str());
     svg->SetAttribute("height", std::to_string(height).c_str());
     svg->SetAttribute("fill", "none");
+    svg->SetAttribute("style", "background: white");
     definitions->SetName("defs");
     // Never shown: the device asks it for its size.
     vtkNew<vtkRenderWindow> window;
@@ -149,7 +151,7 @@ std::string svgOf(const Chart& chart, int width, int height) {
 
 glm::u8vec3 chartColor(std::size_t index) {
     // The first six by Okabe and Ito 2008: told apart by colour-blind eyes too.
-    constexpr glm::u8vec3 kColors[] = {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {90, 90, 90}, {148, 70, 20}, {110, 60, 180}, {120, 150, 20}, {220, 60, 90}, {0, 90, 90}};
+    constexpr glm::u8vec3 kColors[] = {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {90, 90, 90}, {148, 70, 20}, {110, 60, 180}, {120, 150, 20}, {220, 60, 90}, {0, 90, 90}, {0, 0, 0}, {160, 160, 200}};
     return kColors[index % std::size(kColors)];
 }
 

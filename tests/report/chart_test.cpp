@@ -54,6 +54,14 @@ TEST(Chart, needsNothingFromElsewhereAndCutsNothingOff) {
     EXPECT_EQ(svg.find("href=\"http"), std::string::npos);
 }
 
+TEST(Chart, allMarkersAreFilledShapes) {
+    Chart chart;
+    for (std::size_t i = 0; i < 8; ++i) chart.series.push_back({.points = {{1.0 + double(i), 1}, {10, 10}}, .color = chartColor(i)});
+    const std::string svg = svgOf(chart, 640, 400);
+    EXPECT_NE(svg.find("<symbol id=\"Circle\""), std::string::npos);
+    for (const char* lines : {"<symbol id=\"Cross\"", "<symbol id=\"Plus\""}) EXPECT_EQ(svg.find(lines), std::string::npos);
+}
+
 TEST(Chart, valuesThatHaveNoLogarithmAreLeftOut) {
     const double infinite = std::numeric_limits<double>::infinity();
     EXPECT_EQ(markersOf(svgOf(oneSeries({{1, 1}, {0, 5}, {5, -1}, {3, infinite}, {10, 10}}), 640, 400), "#d55e00").size(), 2u);
