@@ -37,6 +37,7 @@ int runCommandLine(int argc, const char* const* argv) {
     addPlanCommand(app);
     addReportCommand(app);
     addScenesCommand(app);
+    addStressCommand(app);
     addInfoCommand(app);
     try {
         app.parse(argc, argv);

@@ -16,5 +16,6 @@ void addReferenceCommand(CLI::App& app);
 void addRenderCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addScenesCommand(CLI::App& app);
+void addStressCommand(CLI::App& app);
 
 }  // namespace clv

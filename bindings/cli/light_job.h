@@ -41,10 +41,11 @@ struct LightJob {
     PipelineReport report;
 
 private:
+    void heedLights();
     void chooseJudges();
 
     std::optional<EmbreeScene> embree_, proxy_;
-    std::optional<Scene> proxyScene_;
+    std::optional<Scene> proxyScene_, turned_;
     std::unique_ptr<LightBackend> backend_;
 };
 

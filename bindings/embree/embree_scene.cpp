@@ -18,6 +18,8 @@ constexpr std::size_t kPacket = 16;
 // with some five roundings. Rays from random triangles met their own surface again at 2 units and never at 4.
 constexpr float kOffsetInUlps = 8.0f;
 constexpr std::uint32_t kNone = RTC_INVALID_GEOMETRY_ID;
+// Surfaces at distance 0 do not count: a lamp in the corner of a room would light nothing else.
+constexpr float kNearest = std::numeric_limits<float>::min();
 
 ClvHit noHit() { return {.normal = glm::vec3(0.0f), .distance = kClvFar, .albedo = glm::vec3(0.0f), .primitive = kNone}; }
 
@@ -45,7 +47,7 @@ Lanes fillPacket(std::span<const ClvRay> rays, RTCRay16& packet, const TightFram
         packet.dir_x[k] = direction.x;
         packet.dir_y[k] = direction.y;
         packet.dir_z[k] = direction.z;
-        packet.tnear[k] = 0.0f;
+        packet.tnear[k] = kNearest;
         packet.tfar[k] = ray.maxDistance;
         packet.time[k] = 0.0f;
         packet.mask[k] = ~0u;
@@ -56,7 +58,7 @@ Lanes fillPacket(std::span<const ClvRay> rays, RTCRay16& packet, const TightFram
 }
 
 RTCRay singleRay(const glm::vec3& origin, const glm::vec3& direction, float maxDistance) {
-    return {.org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = 0.0f,
+    return {.org_x = origin.x, .org_y = origin.y, .org_z = origin.z, .tnear = kNearest,
             .dir_x = direction.x, .dir_y = direction.y, .dir_z = direction.z, .time = 0.0f,
             .tfar = maxDistance, .mask = ~0u, .id = 0, .flags = 0};
 }

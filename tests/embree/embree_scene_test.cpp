@@ -60,6 +60,35 @@ TEST(EmbreeScene, deadRaysStayDead) {
     EXPECT_EQ(rays[0].maxDistance, 0.0f);
 }
 
+TEST(EmbreeScene, surfacesAtDistanceZeroDoNotCount) {
+    SmallScene room;
+    const auto grey = room.material(glm::vec3(0.5f));
+    for (int axis = 0; axis < 3; ++axis) {
+        for (double side : {-1.0, 1.0}) {
+            glm::dvec3 corner(-1.0), x(0.0), y(0.0);
+            corner[axis] = side, x[(axis + 1) % 3] = 2.0, y[(axis + 2) % 3] = 2.0;
+            room.rectangle(corner, x, y, grey);
+        }
+    }
+    const Scene scene = room.finish();
+    const EmbreeScene embree(scene);
+    // From a corner, where three walls meet, to the opposite ones.
+    std::vector<ClvRay> rays;
+    for (uint k = 0; k < 64; ++k) rays.push_back(rayAlong(glm::vec3(1.0f), -abs(randomDirection(3, k))));
+    std::vector<ClvRay> judged = rays;
+    std::vector<ClvHit> hits(rays.size());
+    embree.trace(rays);
+    embree.trace(judged, hits);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const glm::vec3 d = abs(rays[k].direction);
+        const float expected = 2.0f / std::max({d.x, d.y, d.z});
+        EXPECT_NEAR(rays[k].maxDistance, expected, 1e-5f);
+        EXPECT_NEAR(judged[k].maxDistance, expected, 1e-5f);
+        EXPECT_NEAR(embree.hit(rays[k].origin, rays[k].direction, kClvFar).distance, expected, 1e-5f);
+        EXPECT_FALSE(embree.occluded(rays[k].origin, rays[k].direction, 0.99f * expected));
+    }
+}
+
 TEST(EmbreeScene, hitTurnsTheNormalAgainstTheRayAndReadsTheAlbedo) {
     const Scene scene = squareScene();
     const EmbreeScene embree(scene);

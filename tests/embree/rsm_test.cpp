@@ -77,6 +77,21 @@ TEST(RsmRender, pointLightLeavesTheShadowOut) {
     EXPECT_TRUE(test.agrees());
 }
 
+// A map of the whole sphere, or of the whole cone, would have no texel on the wall from here.
+TEST(RsmRender, lampsFarAwaySpendTheirMapOnTheScene) {
+    const Scene scene = wallAndScreen();
+    const EmbreeScene embree(scene);
+    for (float distance : {10.0f, 1e3f, 1e5f}) {
+        for (ClvLight lamp : {makePointLight(glm::vec3(1.0f)), makeSpotLight(glm::vec3(0.0f, 0.0f, -1.0f), glm::vec3(1.0f), 1.0f, 1.2f)}) {
+            lamp.position = glm::vec3(0.0f, 0.0f, distance);
+            ZTest test;
+            // The black screen hides one quarter of the wall.
+            test.add("flux", meanFluxOf(embree, lamp), 0.5 * 3.0 * solidAngleOfCorner(2, 2, distance));
+            EXPECT_TRUE(test.agrees()) << distance << " type " << lamp.type;
+        }
+    }
+}
+
 TEST(RsmRender, directionalLightLightsWhatItsProjectionCovers) {
     const Scene scene = wallAndScreen();
     const EmbreeScene embree(scene);

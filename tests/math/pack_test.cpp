@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "clv/math/finite.h"
+#include "clv/math/hash.h"
 #include "clv/math/pack.h"
 #include "support/chi_square.h"
 
@@ -149,6 +150,48 @@ TEST(SharedExponent, anyBitsAreFinite) {
     for (uint i = 0; i < 100000; ++i) {
         ASSERT_TRUE(clvIsFinite(clvFloatFromSharedExponent(uvec4(clvHash(i), clvHash(i + 1u), clvHash(i + 2u), i & 0xffu))));
     }
+}
+
+TEST(R11g11b10, roundTripsAllCodes) {
+    for (uint code = 0; code < 31u << 6; ++code) {
+        const uint packed = code | (code << 11) | ((code >> 1) << 22);
+        ASSERT_EQ(clvR11g11b10FromFloat(clvFloatFromR11g11b10(packed)), packed);
+    }
+}
+
+TEST(R11g11b10, roundsToTheNearest) {
+    for (uint i = 0; i < 100000; ++i) {
+        const vec3 x(spread(21u, i, -14, 15), spread(22u, i, -14, 15), spread(23u, i, -14, 15));
+        const vec3 error = abs(clvFloatFromR11g11b10(clvR11g11b10FromFloat(x)) / x - 1.0f);
+        ASSERT_LE(error.x, 0x1p-7f * 1.00001f);
+        ASSERT_LE(error.y, 0x1p-7f * 1.00001f);
+        ASSERT_LE(error.z, 0x1p-6f * 1.00001f);
+    }
+    const vec3 small(0x1p-17f, 0x1p-20f, 0x1p-19f);  // multiples of the smallest steps
+    EXPECT_EQ(clvFloatFromR11g11b10(clvR11g11b10FromFloat(small)), small);
+}
+
+TEST(R11g11b10, takesAnyInput) {
+    EXPECT_EQ(clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(-1.0f, kNan, -kInfinity))), vec3(0.0f));
+    EXPECT_EQ(clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(kInfinity, 1e30f, 65000.0f))), vec3(65024.0f, 65024.0f, 64512.0f));
+    EXPECT_TRUE(clvIsFinite(clvFloatFromR11g11b10(~0u)));
+}
+
+TEST(HalfDithered, isRightInTheMeanAndNeverFurtherThanAStep) {
+    for (float x : {1.0003f, 0.33333f, -711.3f, 3e-5f, 1e-7f, 65503.0f}) {
+        const float step = std::abs(x) < 0x1p-14f ? 0x1p-24f : std::ldexp(1.0f, std::ilogb(x) - 10);
+        const uint count = 1u << 18;
+        double sum = 0.0;
+        for (uint k = 0; k < count; ++k) {
+            const float rounded = clvFloatFromHalf(clvHalfDithered(x, clvHash(k)));
+            ASSERT_LE(std::abs(rounded - x), step) << x;
+            sum += rounded;
+        }
+        EXPECT_NEAR(sum / count, x, 4.0 * 0.5 * step / std::sqrt(double(count))) << x;
+    }
+    for (uint code : {0x0000u, 0x0001u, 0x3c00u, 0x7bffu, 0xc123u}) EXPECT_EQ(clvHalfDithered(clvFloatFromHalf(code), ~0u), code);
+    EXPECT_EQ(clvHalfDithered(kNan, ~0u), clvHalfFromFloat(kNan));
+    EXPECT_EQ(clvHalfDithered(kInfinity, ~0u), 0x7bffu);
 }
 
 }  // namespace

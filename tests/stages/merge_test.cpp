@@ -34,8 +34,8 @@ vec3 turned(float angle) { return vec3(std::sin(angle), -std::cos(angle), 0.0f);
 TEST(MergeAlpha, growsWithDynamicityFromTheStillToTheMovingRate) {
     ClvMergeSettings settings = settingsOf(1.0f / 60.0f);
     settings.stillTime = 10.0f;
-    EXPECT_FLOAT_EQ(clvMergeAlpha(settings, 0.0f), 1.0f - std::exp(-1.0f / 600.0f));
-    EXPECT_FLOAT_EQ(clvMergeAlpha(settings, 1.0f), 1.0f - std::exp(-1.0f / 6.0f));
+    EXPECT_FLOAT_EQ(clvMergeAlpha(settings, 0.0f), -std::expm1(-1.0f / 600.0f));
+    EXPECT_FLOAT_EQ(clvMergeAlpha(settings, 1.0f), -std::expm1(-1.0f / 6.0f));
     float last = 0.0f;
     for (float dynamicity = 0.0f; dynamicity <= 1.0f; dynamicity += 0.05f) {
         float alpha = clvMergeAlpha(settings, dynamicity);
@@ -44,6 +44,16 @@ TEST(MergeAlpha, growsWithDynamicityFromTheStillToTheMovingRate) {
     }
     EXPECT_EQ(clvMergeAlpha(settings, 7.0f), clvMergeAlpha(settings, 1.0f));
     EXPECT_EQ(clvMergeAlpha(settings, -1.0f), clvMergeAlpha(settings, 0.0f));
+}
+
+TEST(MergeAlpha, keepsItsDigitsHoweverShortTheStep) {
+    for (double x = 1e-12; x < 20.0; x *= 1.07) {
+        const float rate = 0.37f, timestep = float(x) / rate;
+        const double exact = -std::expm1(-double(timestep) * double(rate));
+        ASSERT_NEAR(clvDecayed(timestep, rate) / exact, 1.0, 4e-7) << x;
+    }
+    EXPECT_EQ(clvDecayed(0.0f, 5.0f), 0.0f);
+    EXPECT_EQ(clvDecayed(kInfinity, 5.0f), 1.0f);
 }
 
 TEST(MergeAlpha, doesNotDependOnTheFrameRate) {
@@ -185,6 +195,35 @@ TEST(LightDynamicity, anotherTypeOrNonFiniteValuesAreFullyDynamic) {
     broken = spot();
     broken.intensity.y = kInfinity;
     EXPECT_EQ(clvLightDynamicity(spot(), broken, kScales), 1.0f);
+}
+
+TEST(MergeDithered, goesOnWhereAPlainMergeStalls) {
+    const float weight = 1e-8f;
+    const uint merges = 4000000u;
+    float plain = 0.75f, dithered = 0.75f;
+    for (uint k = 0; k < merges; ++k) {
+        plain = clvMergeValue(plain, 1.0f, weight);
+        dithered = clvMergeDithered(dithered, 1.0f, weight, clvHash(k));
+    }
+    const double exact = 1.0 - 0.25 * std::exp(-1e-8 * double(merges));
+    EXPECT_EQ(plain, 0.75f);
+    EXPECT_NEAR(dithered, exact, 0.01 * (exact - 0.75));
+}
+
+TEST(MergeDithered, staysBetweenHistoryAndFrameAndWithinALastPlaceOfTheExactValue) {
+    for (uint i = 0; i < 200000; ++i) {
+        const float scale = std::ldexp(1.0f, int(test::randomUnit(11u, i) * 200.0f) - 100);
+        const float history = scale * (2.0f * test::randomUnit(12u, i) - 1.0f), current = scale * (2.0f * test::randomUnit(13u, i) - 1.0f);
+        const float weight = test::randomUnit(14u, i), merged = clvMergeDithered(history, current, weight, clvHash(i));
+        ASSERT_GE(merged, std::min(history, current));
+        ASSERT_LE(merged, std::max(history, current));
+        const double exact = double(history) + double(weight) * (double(current) - double(history));
+        ASSERT_NEAR(merged, exact, 4e-7 * double(std::max(std::abs(history), std::abs(current))));
+    }
+    EXPECT_EQ(clvMergeDithered(3.0f, 3.0f, 0.1f, ~0u), 3.0f);
+    EXPECT_EQ(clvMergeDithered(0.0f, 0.0f, 0.1f, ~0u), 0.0f);
+    EXPECT_EQ(clvMergeDithered(3.0f, kNan, 0.1f, ~0u), 3.0f);
+    EXPECT_EQ(clvMergeDithered(kNan, 3.0f, 0.1f, ~0u), 3.0f);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Rsm, pointLightIsUniformOverTheSphere) {
     constexpr int kHeights = 9, kTurns = 9, kSamples = 100000;
     std::vector<double> counts(kHeights * kTurns, 0.0);
     for (uint i = 0; i < kSamples; ++i) {
-        const vec3 d = clvPointLightRay(makeLight(kClvLightPoint), vec2(randomUnit(15, 2 * i), randomUnit(15, 2 * i + 1))).direction;
+        const vec3 d = clvLightRay(makeLight(kClvLightPoint), vec2(randomUnit(15, 2 * i), randomUnit(15, 2 * i + 1)), vec3(-5.0f), vec3(5.0f)).direction;
         const double turn = std::atan2(d.x, d.z) / (2.0 * M_PI) + 0.5;
         ++counts[std::min(int((0.5 + 0.5 * d.y) * kHeights), kHeights - 1) * kTurns + std::min(int(turn * kTurns), kTurns - 1)];
     }

@@ -31,17 +31,21 @@ struct MovingLightingSettings {
 // What is wrong with the settings, in words; empty if nothing is.
 inline std::string validate(const MovingLightingSettings& settings) {
     if (std::string problem = validate(settings.cascades); !problem.empty()) return problem;
-    if (!(settings.blendCells >= 0.0f)) return "moving light: blendCells must not be negative";
+    if (!(settings.blendCells >= 0.0f && settings.blendCells < kClvFar)) return "moving light: blendCells must be finite, and not negative";
+    if (!(std::abs(settings.anchor.x) + std::abs(settings.anchor.y) + std::abs(settings.anchor.z) < HUGE_VAL)) return "moving light: anchor must be finite";
     if (settings.chunks < 1) return "moving light: chunks must be at least 1";
     if (settings.linesPerCell < 1) return "moving light: linesPerCell must be at least 1";
-    if (!(settings.slotsPerCell > 0.0f)) return "moving light: slotsPerCell must be above 0";
-    if (!(settings.guessFrames >= 0.0f && settings.slidOutFrames >= 0.0f)) {
-        return "moving light: guessFrames and slidOutFrames must not be negative";
+    if (!(settings.slotsPerCell > 0.0f && settings.slotsPerCell <= float(kClvMostSlots))) {
+        return "moving light: slotsPerCell must lie in (0, " + std::to_string(kClvMostSlots) + "]";
+    }
+    if (!(settings.originOffset >= 0.0f && settings.originOffset < kClvFar)) return "moving light: originOffset must be finite, and not negative";
+    if (!(settings.guessFrames >= 0.0f && settings.guessFrames < kClvFar && settings.slidOutFrames >= 0.0f && settings.slidOutFrames < kClvFar)) {
+        return "moving light: guessFrames and slidOutFrames must be finite, and not negative";
     }
     if (!(settings.newCellDynamicity >= 0.0f && settings.newCellDynamicity <= 1.0f)) return "moving light: newCellDynamicity must lie in [0, 1]";
     const ClvMergeSettings& merge = settings.merge;
-    if (!(merge.timestep > 0.0f && merge.movingTime > 0.0f && merge.stillTime >= merge.movingTime && merge.dynamicityTime > 0.0f)) {
-        return "moving light: the times of the merge must be above 0, and movingTime at most stillTime";
+    if (!(merge.timestep > 0.0f && merge.timestep < kClvFar && merge.movingTime > 0.0f && merge.stillTime >= merge.movingTime && merge.dynamicityTime > 0.0f)) {
+        return "moving light: the times of the merge must be above 0, the timestep finite, and movingTime at most stillTime";
     }
     return {};
 }

@@ -31,29 +31,58 @@ CLV_FN float clvFloatFromSnorm16(uint bits) {
 // 2^exponent, for exponents in [-126, 127].
 CLV_FN float clvExp2Int(int exponent) { return clvFloatFromBits(uint(exponent + 127) << 23); }
 
+// Floats of five exponent bits and `bits` of mantissa, without a sign: x in [0, largest], ties to even.
+CLV_FN uint clvSmallFloatFromFloat(float x, uint bits) {
+    if (x < 6.103515625e-05f) {
+        // Below 2^-14 steps are equally wide: adding a number whose float steps are as wide rounds by the hardware's own rule.
+        return clvBitsFromFloat(x + clvExp2Int(9 - int(bits))) & ((2u << bits) - 1u);
+    }
+    uint cut = 23u - bits;
+    uint odd = (clvBitsFromFloat(x) >> cut) & 1u;
+    return (clvBitsFromFloat(x) - ((127u - 15u) << 23) + ((1u << (cut - 1u)) - 1u) + odd) >> cut;
+}
+// Exponent 31 is never written and reads as `largest`.
+CLV_FN float clvFloatFromSmallFloat(uint x, uint bits, float largest) {
+    uint exponent = (x >> bits) & 31u;
+    float mantissa = float(x & ((1u << bits) - 1u));
+    if (exponent == 31u) return largest;
+    if (exponent == 0u) return mantissa * clvExp2Int(-14 - int(bits));
+    return (mantissa + float(1u << bits)) * clvExp2Int(int(exponent) - 15 - int(bits));
+}
+
 // IEEE 754 half precision, ties to even. Beyond 65504 (the largest) and infinity give 65504, NaN gives 0, the sign is kept;
 // exponent 31 is never written and reads as the largest. Relative error at most 2^-11 from 2^-14 up, absolute 2^-25 below.
 CLV_FN uint clvHalfFromFloat(float x) {
     uint sign = (clvBitsFromFloat(x) >> 16) & 0x8000u;
-    float magnitude = clvSaturate(abs(x), 65504.0f);
-    uint bits = clvBitsFromFloat(magnitude);
-    if (magnitude < 6.103515625e-05f) {
-        // Below 2^-14 steps are 2^-24 wide: adding 1/2, where a float has the same step, rounds by the hardware's own rule.
-        return sign | (clvBitsFromFloat(magnitude + 0.5f) & 0x7ffu);
-    }
-    uint odd = (bits >> 13) & 1u;
-    return sign | ((bits - ((127u - 15u) << 23) + 0xfffu + odd) >> 13);
+    return sign | clvSmallFloatFromFloat(clvSaturate(abs(x), 65504.0f), 10u);
 }
 CLV_FN float clvFloatFromHalf(uint bits) {
-    uint exponent = (bits >> 10) & 31u;
-    float mantissa = float(bits & 0x3ffu);
-    float magnitude = mantissa * clvExp2Int(-24);
-    if (exponent == 31u) {
-        magnitude = 65504.0f;
-    } else if (exponent > 0u) {
-        magnitude = (mantissa + 1024.0f) * clvExp2Int(int(exponent) - 25);
-    }
+    float magnitude = clvFloatFromSmallFloat(bits & 0x7fffu, 10u, 65504.0f);
     return (bits & 0x8000u) != 0u ? -magnitude : magnitude;
+}
+// The same, rounded up or down by chance, so that the mean over many random numbers is x: a history kept in halves goes on where
+// rounding to the nearest would stop. `random`: 32 random bits.
+CLV_FN uint clvHalfDithered(float x, uint random) {
+    uint sign = (clvBitsFromFloat(x) >> 16) & 0x8000u;
+    float magnitude = clvSaturate(abs(x), 65504.0f);
+    if (magnitude < 6.103515625e-05f) {
+        float steps = magnitude * 16777216.0f;
+        uint whole = uint(steps);
+        return sign | (float(random >> 8) * (1.0f / 16777216.0f) < steps - float(whole) ? whole + 1u : whole);
+    }
+    return sign | clvSmallFloatFromFloat(min(clvFloatFromBits((clvBitsFromFloat(magnitude) + (random & 0x1fffu)) & 0xffffe000u), 65504.0f), 10u);
+}
+
+// Three numbers of at least 0 as floats of 11, 11 and 10 bits: the layout of R11G11B10 textures. Largest 65024 and, in blue, 64512.
+// Relative error at most 2^-7, in blue 2^-6, from 2^-14 up.
+CLV_FN uint clvR11g11b10FromFloat(vec3 rgb) {
+    uint red = clvSmallFloatFromFloat(clvSaturate(rgb.x, 65024.0f), 6u);
+    uint green = clvSmallFloatFromFloat(clvSaturate(rgb.y, 65024.0f), 6u);
+    return red | (green << 11) | (clvSmallFloatFromFloat(clvSaturate(rgb.z, 64512.0f), 5u) << 22);
+}
+CLV_FN vec3 clvFloatFromR11g11b10(uint bits) {
+    return vec3(clvFloatFromSmallFloat(bits & 0x7ffu, 6u, 65024.0f), clvFloatFromSmallFloat((bits >> 11) & 0x7ffu, 6u, 65024.0f),
+                clvFloatFromSmallFloat(bits >> 22, 5u, 64512.0f));
 }
 
 // Three numbers of at least 0 with nine bits each and a shared exponent of five: the layout of R9G9B9E5 textures.

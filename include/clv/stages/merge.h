@@ -6,6 +6,7 @@
 #define CLV_STAGES_MERGE_H
 #include "../data/light.h"
 #include "../math/finite.h"
+#include "../math/hash.h"
 CLV_NAMESPACE_BEGIN
 
 struct ClvMergeSettings {  // 16 bytes
@@ -24,11 +25,16 @@ struct ClvMovementScales {  // 16 bytes
 };
 
 // Share of a value that wears off within `timestep` (s) at `rate` (1/s), [0, 1]. Two half steps wear off as much as one.
-CLV_FN float clvDecayed(float timestep, float rate) { return 1.0f - exp(-timestep * rate); }
+CLV_FN float clvDecayed(float timestep, float rate) {
+    float x = timestep * rate;
+    // 1 - exp(-x) by its series where the difference would lose digits.
+    if (x < 0.1f) return x * (1.0f - x * 0.5f * (1.0f - x * (1.0f / 3.0f) * (1.0f - x * 0.25f * (1.0f - x * 0.2f))));
+    return 1.0f - exp(-x);
+}
 
 // Share of the history that a frame replaces, [0, 1]: the decay rate is linear in dynamicity.
 CLV_FN float clvMergeAlpha(CLV_IN(ClvMergeSettings) settings, float dynamicity) {
-    float still = 1.0f / settings.stillTime;
+    float still = settings.stillTime < kClvFar ? 1.0f / settings.stillTime : 0.0f;
     float moving = 1.0f / settings.movingTime;
     return clvDecayed(settings.timestep, still + (moving - still) * clamp(dynamicity, 0.0f, 1.0f));
 }
@@ -49,6 +55,17 @@ CLV_FN float clvMergeValue(float history, float current, float weight) {
     // From the nearer end: a weight of 1 leaves no trace of a large history, and equal values stay equal to the bit.
     float step = current - history;
     return weight < 0.5f ? history + weight * step : current - (1.0f - weight) * step;
+}
+
+// The same, rounded up or down by chance, so that steps below the last place of the history count in the mean over frames: a plain
+// merge stalls where weight * (current - history) is less than half of that place. `random`: 32 random bits, new ones each frame.
+CLV_FN float clvMergeDithered(float history, float current, float weight, uint random) {
+    if (!clvIsFinite(history) || !clvIsFinite(current) || !clvIsFinite(weight)) return clvMergeValue(history, current, weight);
+    // One last place of the larger of the two, which the other is a multiple of or above.
+    uint exponent = clvBitsFromFloat(max(abs(history), abs(current))) >> 23;
+    float place = clvFloatFromBits((max(exponent, 24u) - 23u) << 23);
+    float merged = history + floor(weight * (current - history) * (1.0f / place) + clvUnitFloat(random)) * place;
+    return clamp(merged, min(history, current), max(history, current));
 }
 
 // Four numbers of a history that is a plain mean: they move towards this frame's estimate by `weight`, (0, 1].

@@ -1,7 +1,7 @@
 // The RSM stage: rays from a light through the texels of its reflective shadow map, and texels from what they hit.
 // A square map a light, u in [0, 1)^2, whose texels all cover the same solid angle or area, so that the light's flux is exact at
-// any resolution: concentric circles that fill the cone for a spot, the same on either hemisphere for a point light, and an
-// orthographic map over the scene for a directional light.
+// any resolution: concentric circles that fill the cone for a spot, the same on either hemisphere for a point light, or on the cap
+// that the scene fills where that is smaller, and an orthographic map over the scene for a directional light.
 // An engine that rasters its own map fills ClvRsmTexel in its own way: later stages do not know how texels lie.
 #ifndef CLV_STAGES_RSM_H
 #define CLV_STAGES_RSM_H
@@ -53,28 +53,49 @@ CLV_FN vec2 clvSquareFromCap(vec3 direction, vec3 axis, float capHeight) {
     return clvSquareFromDisk(vec2(x * scale, y * scale));
 }
 
-// A ray of a point light: one half of the map for each hemisphere.
-CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u) {
+// Height of the cap of directions from `position` that holds the sphere around the box [lo, hi], m; 2, all directions, from within the
+// sphere or near it.
+CLV_FN float clvCapOfBox(vec3 position, vec3 lo, vec3 hi) {
+    vec3 away = (lo + hi) * 0.5f - position;
+    vec3 halfSize = (hi - lo) * 0.5f;
+    float square = dot(halfSize, halfSize) / max(dot(away, away), 1.0e-30f);
+    if (!(square < 0.5f)) return 2.0f;
+    // 1 - cos by the sine; a hundredth more for what rounding and the corners of texels cut off.
+    float sine = 1.01f * sqrt(square);
+    return sine * sine / (1.0f + sqrt(1.0f - sine * sine));
+}
+
+// A ray of a point light: one half of the map for each hemisphere; from afar the whole map for the scene alone.
+CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     float side = u.x < 0.5f ? 0.0f : 1.0f;
+    float capHeight = clvCapOfBox(light.position, lo, hi);
     ClvRay ray;
     ray.origin = light.position;
     ray.maxDistance = kClvFar;
-    ray.direction = clvCapFromSquare(vec2(2.0f * u.x - side, u.y), vec3(0.0f, 1.0f - 2.0f * side, 0.0f), 1.0f);
+    if (capHeight < 2.0f) {
+        ray.direction = clvCapFromSquare(u, normalize((lo + hi) * 0.5f - light.position), capHeight);
+    } else {
+        ray.direction = clvCapFromSquare(vec2(2.0f * u.x - side, u.y), vec3(0.0f, 1.0f - 2.0f * side, 0.0f), 1.0f);
+    }
     ray.dynamicity = light.dynamicity;
-    ray.flux = light.intensity * (4.0f * kClvPi);
+    ray.flux = light.intensity * (2.0f * kClvPi * capHeight);
     ray.pad0 = 0.0f;
     return ray;
 }
 
-// A ray of a spot light: the map is the cap of the sphere inside the outer cone.
-CLV_FN ClvRay clvSpotLightRay(ClvLight light, vec2 u) {
+// A ray of a spot light: the map is the cap of the sphere inside the outer cone, or the one that holds the scene where that is smaller.
+CLV_FN ClvRay clvSpotLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     // 1 - cos(outer), without the cancellation that would spoil narrow cones.
     float halfSine = sin(0.5f * light.outerConeAngle);
-    float capHeight = 2.0f * halfSine * halfSine;
+    float coneHeight = 2.0f * halfSine * halfSine;
+    float sceneHeight = clvCapOfBox(light.position, lo, hi);
+    float capHeight = min(coneHeight, sceneHeight);
+    vec3 axis = light.direction;
+    if (sceneHeight < coneHeight) axis = normalize((lo + hi) * 0.5f - light.position);
     ClvRay ray;
     ray.origin = light.position;
     ray.maxDistance = kClvFar;
-    ray.direction = clvCapFromSquare(u, light.direction, capHeight);
+    ray.direction = clvCapFromSquare(u, axis, capHeight);
     ray.dynamicity = light.dynamicity;
     float falloff = clvSpotFalloff(dot(ray.direction, light.direction), light.innerConeAngle, light.outerConeAngle);
     ray.flux = light.intensity * (2.0f * kClvPi * capHeight * falloff);
@@ -107,8 +128,8 @@ CLV_FN ClvRay clvDirectionalLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
 // a texel's share is that divided by the number of texels. [lo, hi]: the scene's bounds, m.
 CLV_FN ClvRay clvLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     if (light.type == kClvLightDirectional) return clvDirectionalLightRay(light, u, lo, hi);
-    if (light.type == kClvLightSpot) return clvSpotLightRay(light, u);
-    return clvPointLightRay(light, u);
+    if (light.type == kClvLightSpot) return clvSpotLightRay(light, u, lo, hi);
+    return clvPointLightRay(light, u, lo, hi);
 }
 
 // The texel that a light's ray makes where it hit; not valid where it met nothing. texelShare: 1 / number of texels.

@@ -1,0 +1,129 @@
+// Stiff history: slow and fast light side by side, time steps from 1e-4 s to 1e3 s, and what each format of a history stalls at.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bindings/cli/stress/stress_case.h"
+#include "clv/math/hash.h"
+#include "clv/math/pack.h"
+#include "clv/stages/merge.h"
+
+namespace clv {
+namespace {
+
+float unit(std::uint32_t seed, std::uint64_t index) { return clvUnitFloat(clvHashCombine(clvHashCombine(seed, uint(index >> 32)), uint(index))); }
+
+// A way to keep a value from frame to frame.
+struct Format {
+    std::string name;
+    float (*merged)(float history, float current, float weight, uint random);
+    double mostStall;  // %
+};
+
+// Share of a fixed-point history's range that the input fills: room for an input twice as bright.
+constexpr float kFixedScale = 1073741824.0f;
+
+const std::array<Format, 7> kFormats = {{
+    {"float32 (the default)", [](float h, float c, float w, uint) { return clvMergeValue(h, c, w); }, 0.05},
+    {"float32 dithered", [](float h, float c, float w, uint r) { return clvMergeDithered(h, c, w, r); }, 0.05},
+    {"half, to the nearest", [](float h, float c, float w, uint) { return clvFloatFromHalf(clvHalfFromFloat(clvMergeValue(h, c, w))); }, StressFigure::kStated},
+    {"half dithered", [](float h, float c, float w, uint r) { return clvFloatFromHalf(clvHalfDithered(clvMergeValue(h, c, w), r)); }, StressFigure::kStated},
+    {"RGB9E5", [](float h, float c, float w, uint) { return clvFloatFromRgb9e5(clvRgb9e5FromFloat(vec3(clvMergeValue(h, c, w)))).x; }, StressFigure::kStated},
+    {"R11G11B10", [](float h, float c, float w, uint) { return clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(clvMergeValue(h, c, w)))).x; }, StressFigure::kStated},
+    {"fixed point, 32 bits", [](float h, float c, float w, uint) { return float(int(std::floor(clvMergeValue(h, c, w) * kFixedScale + 0.5f))) / kFixedScale; }, 0.05},
+}};
+
+// Light that is switched on and then stands still: how far the history stays below it. Each merge sees the same noiseless value.
+std::vector<StressFigure> stall(float alpha, const StressSettings& settings) {
+    constexpr float kLight = 0.7361f;
+    const std::uint64_t merges = std::uint64_t(20.0f / alpha), mean = merges / 2;
+    std::vector<StressFigure> figures;
+    for (const Format& format : kFormats) {
+        float history = 0.0f;
+        double sum = 0.0;  // of the second half, in which only rounding is left
+        for (std::uint64_t k = 0; k < merges; ++k) {
+            history = format.merged(history, kLight, alpha, clvHashCombine(settings.seed, uint(k)));
+            if (k >= mean) sum += history;
+        }
+        figures.push_back({format.name + ", % short", 100.0 * std::abs(1.0 - sum / double(merges - mean) / double(kLight)), format.mostStall});
+    }
+    return figures;
+}
+
+// One cell, merged with noise of its own size: drift from a run in double precision that sees the same frames.
+std::vector<StressFigure> manyMerges(float alpha, const StressSettings& settings) {
+    constexpr std::uint64_t kMerges = 10'000'000;
+    float history = 0.0f, frames = 0.0f;
+    double shadow = 0.0, worst = 0.0;
+    for (std::uint64_t k = 0; k < kMerges; ++k) {
+        const float current = 2.0f * unit(settings.seed, k);
+        const float weight = std::max(alpha, 1.0f / (frames + 1.0f));
+        history = clvMergeValue(history, current, weight);
+        frames = clvFramesFromWeight(weight);
+        shadow += (double(current) - shadow) * double(weight);
+        worst = std::max(worst, std::abs(history / shadow - 1.0));
+    }
+    // Below the noise that is left in the mean.
+    const double noise = std::sqrt(1.0 / 3.0 * std::max(double(alpha) / 2.0, 1.0 / double(kMerges)));
+    return {{"largest drift", worst, noise}, {"drift at the end", std::abs(history / shadow - 1.0), noise}, {"noise that is left", noise}};
+}
+
+// Sides whose dynamicity differs by up to four orders of magnitude, and time steps that differ by seven, mixed: after a step of the
+// light from 0 to 1 each side must follow 1 - exp(-rate t) whatever the steps were, rise only, and never overshoot.
+std::vector<StressFigure> sideBySide(const StressSettings& settings) {
+    constexpr int kSides = 9, kFrames = 4000;
+    ClvMergeSettings merge{0.0f, 100.0f, 0.1f, 1.0f};
+    std::array<float, kSides> history{};
+    double time = 0.0, overshoot = 0.0, fall = 0.0, error = 0.0, late = 0.0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        // Small steps first, so that all rates are seen at work; then any.
+        const float exponent = frame < kFrames / 2 ? -4.0f + 2.0f * unit(settings.seed, std::uint64_t(frame)) : -4.0f + 7.0f * unit(settings.seed, std::uint64_t(frame));
+        merge.timestep = std::pow(10.0f, exponent);
+        time += double(merge.timestep);
+        for (int side = 0; side < kSides; ++side) {
+            const float dynamicity = std::pow(10.0f, -0.5f * float(side));
+            const float before = history[side];
+            history[side] = clvMergeValue(before, 1.0f, clvMergeAlpha(merge, dynamicity));
+            overshoot = std::max(overshoot, double(history[side]) - 1.0);
+            fall = std::max(fall, double(before) - double(history[side]));
+            const double rate = 1.0 / double(merge.stillTime) + (1.0 / double(merge.movingTime) - 1.0 / double(merge.stillTime)) * double(dynamicity);
+            error = std::max(error, std::abs(double(history[side]) - -std::expm1(-rate * time)));
+        }
+    }
+    for (float value : history) late = std::max(late, 1.0 - double(value));
+    return {{"overshoot", overshoot, 0.0}, {"fall", fall, 0.0}, {"off the exponential", error, 1e-4}, {"missing in the end", late, 5e-4}};
+}
+
+// The smallest rate that a setting can ask for: a step of 1e-4 s against a time of 1000 s.
+std::vector<StressFigure> slowest(const StressSettings& settings) {
+    const ClvMergeSettings merge{1e-4f, 1e3f, 0.1f, 1.0f};
+    const float alpha = clvMergeAlpha(merge, 0.0f);
+    const std::uint64_t merges = settings.exhaustive ? 100'000'000 : 20'000'000;
+    float plain = 0.5f, dithered = 0.5f;
+    for (std::uint64_t k = 0; k < merges; ++k) {
+        plain = clvMergeValue(plain, 1.0f, alpha);
+        dithered = clvMergeDithered(dithered, 1.0f, alpha, clvHashCombine(settings.seed, uint(k)));
+    }
+    const double exact = 1.0 - 0.5 * std::exp(-1e-7 * double(merges));
+    return {{"error of the rate", std::abs(double(alpha) / -std::expm1(-1e-7) - 1.0), 1e-6},
+            {"plain float32, % short", 100.0 * (1.0 - double(plain) / exact)},
+            {"dithered, % short", 100.0 * std::abs(1.0 - double(dithered) / exact), 0.05}};
+}
+
+}  // namespace
+
+std::vector<StressCase> historyCases() {
+    std::vector<StressCase> cases;
+    for (float alpha : {0.05f, 0.01f, 0.005f}) {
+        char name[64];
+        std::snprintf(name, sizeof name, "stall at a weight of %g", double(alpha));
+        cases.push_back({"history", name, "the default format ends within 0.05 % of the light", [alpha](const StressSettings& s) { return stall(alpha, s); }});
+    }
+    cases.push_back({"history", "ten million merges, plain mean", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(0.0f, s); }});
+    cases.push_back({"history", "ten million merges at a weight of 0.001", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(1e-3f, s); }});
+    cases.push_back({"history", "dynamicities of 1e-4 to 1, steps of 1e-4 s to 1e3 s", "each side follows its exponential, and never overshoots", sideBySide});
+    cases.push_back({"history", "a step of 1e-4 s against a time of 1000 s", "the rate is right, and a dithered history does not stall", slowest});
+    return cases;
+}
+
+}  // namespace clv

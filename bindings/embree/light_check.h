@@ -1,0 +1,22 @@
+// What the lights of a scene meet first, before anything is built on it.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bindings/embree/embree_scene.h"
+#include "clv/cpu/parallel.h"
+
+namespace clv {
+
+struct LightCheck {
+    std::vector<std::string> idle;   // names of lights that are on and meet no surface: too far away, or turned away from everything
+    double shareOnBacks = 0.0;       // of the flux that meets something, how much meets backs of surfaces first
+};
+
+// Follows a few hundred rays of each light that is on.
+LightCheck checkLights(const EmbreeScene& scene, const ParallelFor& parallelFor);
+
+// Turns every triangle around.
+void turnFaces(Scene& scene);
+
+}  // namespace clv
