@@ -58,7 +58,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
 
 // What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out, and is turned around.
 void LightJob::heedLights() {
-    constexpr double kStray = 0.01;  // share of the light that may fall on backs without a word: through cracks
+    constexpr double kStray = 0.05;  // share of the light that may fall on backs without a word: on sheets, and through cracks
     const LightCheck check = checkLights(*embree_, parallelFor);
     for (const std::string& name : check.idle) {
         report.warnings.push_back(fmt::format("light \"{}\" meets no surface: it is too far away, or looks the other way", name));
