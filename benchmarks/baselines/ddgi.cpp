@@ -80,7 +80,7 @@ public:
     std::string name() const override { return "ddgi"; }
     MethodSettings settings() const override {
         return {{"resolution", std::to_string(settings_.resolution)},
-                {"grid_shift", fmt::format("{:.3g} {:.3g} {:.3g}", settings_.gridShift.x, settings_.gridShift.y, settings_.gridShift.z)},
+                {"grid_shift", gridShiftText(settings_.gridShift)},
                 {"readers", readersName(settings_.readers)},
                 {"hysteresis", fmt::format("{:g}", settings_.hysteresis)},
                 {"encoding", fmt::format("{:g}", settings_.encoding)},

@@ -90,7 +90,7 @@ public:
     std::string name() const override { return "light_propagation"; }
     MethodSettings settings() const override {
         return {{"resolution", std::to_string(settings_.resolution)},
-                {"grid_shift", fmt::format("{:.3g} {:.3g} {:.3g}", settings_.gridShift.x, settings_.gridShift.y, settings_.gridShift.z)},
+                {"grid_shift", gridShiftText(settings_.gridShift)},
                 {"iterations", std::to_string(settings_.iterations)},
                 {"blocking", fmt::format("{:g}", settings_.blocking)},
                 {"damped", settings_.damped ? "yes" : "no"}};

@@ -50,7 +50,7 @@ public:
     MethodSettings settings() const override {
         return {{"resolution", automatic() ? "chosen" : std::to_string(settings_.resolution)},
                 {"storage", storageName(settings_.storage)},
-                {"grid_shift", fmt::format("{:.3g} {:.3g} {:.3g}", settings_.gridShift.x, settings_.gridShift.y, settings_.gridShift.z)},
+                {"grid_shift", gridShiftText(settings_.gridShift)},
                 {"readers", readersName(settings_.readers)},
                 {"weights", settings_.keptWeights ? "kept" : "at each reading"},
                 {"planned_rays", std::to_string(settings_.plannedRays)}};

@@ -23,6 +23,8 @@ struct MethodWorld {
 
 // Name and value of all that sets two runs of a method apart, in a fixed order: columns of a table.
 using MethodSettings = std::vector<std::pair<std::string, std::string>>;
+// A shift of a grid, cells, among them.
+std::string gridShiftText(const glm::vec3& shift);
 
 class Method {
 public:

@@ -26,7 +26,7 @@ public:
     std::string name() const override { return "thesis"; }
     MethodSettings settings() const override {
         return {{"resolution", std::to_string(settings_.resolution)},
-                {"grid_shift", fmt::format("{:.3g} {:.3g} {:.3g}", settings_.gridShift.x, settings_.gridShift.y, settings_.gridShift.z)},
+                {"grid_shift", gridShiftText(settings_.gridShift)},
                 {"blend", fmt::format("{:g}", settings_.blend)}};
     }
 

@@ -101,13 +101,7 @@ StoredCase movingCase(const CpuScene& cpu) {
         partials[0].resize(slots, layout, true);
         inject(cpu.level, layout, kClvInjectTrackLength, rays, partials[0].target());
         for (std::size_t slot = 0; slot < slots; ++slot) {
-            const SideDynamicity now = takeDynamicity(partials, slot);
-            float largest = 0.0f;
-            for (std::size_t side = 0; side < kSides; ++side) {
-                float& kept = dynamicity.expected[slot * kSides + side];
-                kept = clvMergeDynamicity(kMerge, kept, now[side]);
-                largest = std::max(largest, kept);
-            }
+            const float largest = mergeDynamicity(kMerge, partials, slot, &dynamicity.expected[slot * kSides]);
             const float weight = clvMergeWeight(kMerge, largest, frames.expected[slot] + 1.0f);
             frames.expected[slot] = clvFramesFromWeight(weight);
             mergeDeposits(partials, slot, stride, 1.0f / float(kFewRays), weight, history.expected.data() + slot * stride);

@@ -92,7 +92,7 @@ private:
 void addStressCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stress", "Try stiff and extreme cases; fails where one does not hold");
     auto options = std::make_shared<StressCommand>();
-    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays and more: most of an hour in place of a minute");
+    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays and more: a minute in place of ten seconds");
     command->add_option("--only", options->only, "Cases of this group, or with this in their name");
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });

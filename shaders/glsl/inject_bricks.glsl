@@ -61,6 +61,6 @@ void main() {
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
     [[unroll]] for (uint row = 0u; row < stride / 4u; ++row) {
-        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+        history[firstRow + row] = clvMergeStep(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
     }
 }

@@ -10,5 +10,5 @@ void main() {
     uint i = clvItem(gl_GlobalInvocationID);
     uint vectors = stride / 4u;
     if (i >= frame.halves * level.slotCount * vectors) return;
-    history[i] = clvMergeMean(history[i], takeMean(i, level.scale, level.fixedScale), mergeWeight(i, vectors, level.weight));
+    history[i] = clvMergeStep(history[i], takeMean(i, level.scale, level.fixedScale), mergeWeight(i, vectors, level.weight));
 }

@@ -28,6 +28,6 @@ void main() {
                                      texelFetch(side3, at, 0), texelFetch(side4, at, 0), texelFetch(side5, at, 0));
     for (uint row = 0u; row < stride / 4u; ++row) {
         uint k = i * (stride / 4u) + row;
-        history[k] = clvMergeMean(history[k], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+        history[k] = clvMergeStep(history[k], clvRecordRow(sum, channels, row) * level.scale, level.weight);
     }
 }

@@ -60,6 +60,6 @@ void main(uint3 thread : SV_DispatchThreadID) {
     if (slot == kClvNoSlot) return;
     uint firstRow = (place.halfIndex * level.slotCount + slot) * (stride / 4u);
     [unroll] for (uint row = 0u; row < stride / 4u; ++row) {
-        history[firstRow + row] = clvMergeMean(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+        history[firstRow + row] = clvMergeStep(history[firstRow + row], clvRecordRow(sum, channels, row) * level.scale, level.weight);
     }
 }

@@ -25,6 +25,6 @@ void main(uint3 thread : SV_DispatchThreadID) {
     ClvRecord sum = clvRecordOfSides(side0.Load(place), side1.Load(place), side2.Load(place), side3.Load(place), side4.Load(place), side5.Load(place));
     for (uint row = 0u; row < stride / 4u; ++row) {
         uint k = i * (stride / 4u) + row;
-        history[k] = clvMergeMean(history[k], clvRecordRow(sum, channels, row) * level.scale, level.weight);
+        history[k] = clvMergeStep(history[k], clvRecordRow(sum, channels, row) * level.scale, level.weight);
     }
 }

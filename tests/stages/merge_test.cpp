@@ -197,6 +197,13 @@ TEST(LightDynamicity, anotherTypeOrNonFiniteValuesAreFullyDynamic) {
     EXPECT_EQ(clvLightDynamicity(spot(), broken, kScales), 1.0f);
 }
 
+TEST(MergeStep, aWeightOfOneLeavesNoTraceOfABrightHistory) {
+    for (float bright : {1e4f, 1e8f, -1e8f, 1e30f}) {
+        EXPECT_EQ(clvMergeStep(bright, 1.0f, 1.0f), 1.0f) << bright;
+        EXPECT_EQ(clvMergeStep(vec4(bright), vec4(1.0f, 0.0f, -2.0f, 1e-30f), 1.0f), vec4(1.0f, 0.0f, -2.0f, 1e-30f)) << bright;
+    }
+}
+
 TEST(MergeDithered, goesOnWhereAPlainMergeStalls) {
     const float weight = 1e-8f;
     const uint merges = 4000000u;

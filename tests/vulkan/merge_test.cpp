@@ -84,7 +84,7 @@ TEST_F(VulkanMerge, takesIntegersForTheirUnits) {
             const std::vector<float> sums = frameSums(frame);
             for (std::size_t i = 0; i < kValues; ++i) {
                 units[i] = clvFixedFromFloat(sums[i], constants.fixedScale);
-                expected[i] += (float(units[i]) * (constants.scale / constants.fixedScale) - expected[i]) * constants.weight;
+                expected[i] = clvMergeStep(expected[i], float(units[i]) * (constants.scale / constants.fixedScale), constants.weight);
                 EXPECT_NEAR(float(units[i]) / constants.fixedScale, sums[i], 0.5f / constants.fixedScale);
             }
             upload(run, frame);

@@ -44,13 +44,7 @@ History onHost(const Level& level, const DepositLayout& layout) {
             inject(level, layout, kClvInjectTrackLength, std::span(rays).subspan(half * kRays / kHalves, kRays / kHalves), partials[0].target());
             for (std::size_t slot = 0; slot < slots; ++slot) {
                 const std::size_t i = half * slots + slot;
-                const SideDynamicity now = takeDynamicity(partials, slot);
-                float largest = 0.0f;
-                for (std::size_t side = 0; side < kSides; ++side) {
-                    float& kept = history.dynamicity[i * kSides + side];
-                    kept = clvMergeDynamicity(kMerge, kept, now[side]);
-                    largest = std::max(largest, kept);
-                }
+                const float largest = mergeDynamicity(kMerge, partials, slot, &history.dynamicity[i * kSides]);
                 const float weight = clvMergeWeight(kMerge, largest, history.frames[i] + 1.0f);
                 history.frames[i] = clvFramesFromWeight(weight);
                 mergeDeposits(partials, slot, stride, float(kHalves) / kRays, weight, history.deposits.data() + i * stride);

@@ -24,13 +24,13 @@ struct Format {
 constexpr float kFixedScale = 1073741824.0f;
 
 const std::array<Format, 7> kFormats = {{
-    {"float32 (the default)", [](float h, float c, float w, uint) { return clvMergeValue(h, c, w); }, 0.05},
+    {"float32 (the default)", [](float h, float c, float w, uint) { return clvMergeStep(h, c, w); }, 0.05},
     {"float32 dithered", [](float h, float c, float w, uint r) { return clvMergeDithered(h, c, w, r); }, 0.05},
-    {"half, to the nearest", [](float h, float c, float w, uint) { return clvFloatFromHalf(clvHalfFromFloat(clvMergeValue(h, c, w))); }, StressFigure::kStated},
-    {"half dithered", [](float h, float c, float w, uint r) { return clvFloatFromHalf(clvHalfDithered(clvMergeValue(h, c, w), r)); }, StressFigure::kStated},
-    {"RGB9E5", [](float h, float c, float w, uint) { return clvFloatFromRgb9e5(clvRgb9e5FromFloat(vec3(clvMergeValue(h, c, w)))).x; }, StressFigure::kStated},
-    {"R11G11B10", [](float h, float c, float w, uint) { return clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(clvMergeValue(h, c, w)))).x; }, StressFigure::kStated},
-    {"fixed point, 32 bits", [](float h, float c, float w, uint) { return float(int(std::floor(clvMergeValue(h, c, w) * kFixedScale + 0.5f))) / kFixedScale; }, 0.05},
+    {"half, to the nearest", [](float h, float c, float w, uint) { return clvFloatFromHalf(clvHalfFromFloat(clvMergeStep(h, c, w))); }, StressFigure::kStated},
+    {"half dithered", [](float h, float c, float w, uint r) { return clvFloatFromHalf(clvHalfDithered(clvMergeStep(h, c, w), r)); }, StressFigure::kStated},
+    {"RGB9E5", [](float h, float c, float w, uint) { return clvFloatFromRgb9e5(clvRgb9e5FromFloat(vec3(clvMergeStep(h, c, w)))).x; }, StressFigure::kStated},
+    {"R11G11B10", [](float h, float c, float w, uint) { return clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(clvMergeStep(h, c, w)))).x; }, StressFigure::kStated},
+    {"fixed point, 32 bits", [](float h, float c, float w, uint) { return float(int(std::floor(clvMergeStep(h, c, w) * kFixedScale + 0.5f))) / kFixedScale; }, 0.05},
 }};
 
 // Light that is switched on and then stands still: how far the history stays below it. Each merge sees the same noiseless value.
@@ -58,7 +58,7 @@ std::vector<StressFigure> manyMerges(float alpha, const StressSettings& settings
     for (std::uint64_t k = 0; k < kMerges; ++k) {
         const float current = 2.0f * unit(settings.seed, k);
         const float weight = std::max(alpha, 1.0f / (frames + 1.0f));
-        history = clvMergeValue(history, current, weight);
+        history = clvMergeStep(history, current, weight);
         frames = clvFramesFromWeight(weight);
         shadow += (double(current) - shadow) * double(weight);
         worst = std::max(worst, std::abs(history / shadow - 1.0));
@@ -83,7 +83,7 @@ std::vector<StressFigure> sideBySide(const StressSettings& settings) {
         for (int side = 0; side < kSides; ++side) {
             const float dynamicity = std::pow(10.0f, -0.5f * float(side));
             const float before = history[side];
-            history[side] = clvMergeValue(before, 1.0f, clvMergeAlpha(merge, dynamicity));
+            history[side] = clvMergeStep(before, 1.0f, clvMergeAlpha(merge, dynamicity));
             overshoot = std::max(overshoot, double(history[side]) - 1.0);
             fall = std::max(fall, double(before) - double(history[side]));
             const double rate = 1.0 / double(merge.stillTime) + (1.0 / double(merge.movingTime) - 1.0 / double(merge.stillTime)) * double(dynamicity);
@@ -94,6 +94,13 @@ std::vector<StressFigure> sideBySide(const StressSettings& settings) {
     return {{"overshoot", overshoot, 0.0}, {"fall", fall, 0.0}, {"off the exponential", error, 1e-4}, {"missing in the end", late, 5e-4}};
 }
 
+// A bright light goes out, and a dim one stays: a frame that replaces the history leaves nothing of it.
+std::vector<StressFigure> afterBrightness(const StressSettings&) {
+    double left = 0.0;
+    for (float bright : {1e4f, 1e8f, 1e30f}) left = std::max(left, std::abs(double(clvMergeStep(bright, 1.0f, 1.0f)) - 1.0));
+    return {{"off the dim light by", left, 0.0}};
+}
+
 // The smallest rate that a setting can ask for: a step of 1e-4 s against a time of 1000 s.
 std::vector<StressFigure> slowest(const StressSettings& settings) {
     const ClvMergeSettings merge{1e-4f, 1e3f, 0.1f, 1.0f};
@@ -101,7 +108,7 @@ std::vector<StressFigure> slowest(const StressSettings& settings) {
     const std::uint64_t merges = settings.exhaustive ? 100'000'000 : 20'000'000;
     float plain = 0.5f, dithered = 0.5f;
     for (std::uint64_t k = 0; k < merges; ++k) {
-        plain = clvMergeValue(plain, 1.0f, alpha);
+        plain = clvMergeStep(plain, 1.0f, alpha);
         dithered = clvMergeDithered(dithered, 1.0f, alpha, clvHashCombine(settings.seed, uint(k)));
     }
     const double exact = 1.0 - 0.5 * std::exp(-1e-7 * double(merges));
@@ -122,6 +129,7 @@ std::vector<StressCase> historyCases() {
     cases.push_back({"history", "ten million merges, plain mean", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(0.0f, s); }});
     cases.push_back({"history", "ten million merges at a weight of 0.001", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(1e-3f, s); }});
     cases.push_back({"history", "dynamicities of 1e-4 to 1, steps of 1e-4 s to 1e3 s", "each side follows its exponential, and never overshoots", sideBySide});
+    cases.push_back({"history", "light of 1e4 to 1e30 goes out, and light of 1 stays", "a weight of 1 leaves no trace", afterBrightness});
     cases.push_back({"history", "a step of 1e-4 s against a time of 1000 s", "the rate is right, and a dithered history does not stall", slowest});
     return cases;
 }

@@ -66,7 +66,7 @@ public:
         const std::size_t stride = settings_.layout.stride(), slots = level().slots.size(), kPiece = 2048;
         auto mergePiece = [&](std::size_t piece) {
             for (std::size_t slot = piece * kPiece; slot < std::min(slots, (piece + 1) * kPiece); ++slot) {
-                const float weight = clvMergeWeight(merge, settings_.movingLights ? mergeDynamicity(merge, slot) : 0.0f, frames_[slot] + 1.0f);
+                const float weight = clvMergeWeight(merge, settings_.movingLights ? mergeDynamicity(merge, partials_, slot, &history_.dynamicity[slot * kSides]) : 0.0f, frames_[slot] + 1.0f);
                 frames_[slot] = clvFramesFromWeight(weight);
                 mergeDeposits(partials_, slot, stride, scale, weight, history_.deposits.data() + slot * stride);
             }
@@ -167,18 +167,6 @@ private:
         if (!settings_.movingLights) return;
         const float dynamicity = frames_[slot] > 0.0f ? settings_.newCellDynamicity : 0.0f;
         std::fill_n(history_.dynamicity.begin() + std::ptrdiff_t(slot * kSides), kSides, dynamicity);
-    }
-
-    // The largest dynamicity of a slot's sides.
-    float mergeDynamicity(const ClvMergeSettings& merge, std::size_t slot) {
-        const SideDynamicity now = takeDynamicity(partials_, slot);
-        float largest = 0.0f;
-        for (std::size_t side = 0; side < kSides; ++side) {
-            float& kept = history_.dynamicity[slot * kSides + side];
-            kept = clvMergeDynamicity(merge, kept, now[side]);
-            largest = std::max(largest, kept);
-        }
-        return largest;
     }
 
     MovingVolumeSettings settings_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "../stages/merge.h"
 #include "aligned.h"
 #include "inject.h"
 
@@ -45,7 +46,7 @@ inline void mergeDeposits(std::span<PartialVolume> partials, std::size_t slot, s
         for (std::size_t j = 0; j < stride; ++j) sum[j] += other[j], other[j] = 0.0f;
     }
     float* __restrict kept = history;
-    for (std::size_t j = 0; j < stride; ++j) kept[j] += weight * (sum[j] * scale - kept[j]), sum[j] = 0.0f;
+    for (std::size_t j = 0; j < stride; ++j) kept[j] = clvMergeStep(kept[j], sum[j] * scale, weight), sum[j] = 0.0f;
 }
 
 // The largest dynamicity that lit each side of a slot in this frame. Clears it.
@@ -54,6 +55,17 @@ inline SideDynamicity takeDynamicity(std::span<PartialVolume> partials, std::siz
     for (PartialVolume& partial : partials) {
         float* side = partial.dynamicity.data() + slot * kSides;
         for (std::size_t i = 0; i < kSides; ++i) largest[i] = std::max(largest[i], side[i]), side[i] = 0.0f;
+    }
+    return largest;
+}
+
+// Merges this frame's dynamicity of a slot into `kept`, kSides numbers, and returns the largest of them. Clears it in the partial volumes.
+inline float mergeDynamicity(const ClvMergeSettings& merge, std::span<PartialVolume> partials, std::size_t slot, float* kept) {
+    const SideDynamicity now = takeDynamicity(partials, slot);
+    float largest = 0.0f;
+    for (std::size_t side = 0; side < kSides; ++side) {
+        kept[side] = clvMergeDynamicity(merge, kept[side], now[side]);
+        largest = std::max(largest, kept[side]);
     }
     return largest;
 }

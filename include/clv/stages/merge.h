@@ -48,13 +48,22 @@ CLV_FN float clvMergeWeight(CLV_IN(ClvMergeSettings) settings, float dynamicity,
 // forgotten falls with it, so that a cell converges anew once its light stands still.
 CLV_FN float clvFramesFromWeight(float weight) { return 1.0f / max(weight, 1.0e-9f); }
 
-// The new history. A value that is not finite loses to the other one; magnitudes must stay below half the largest float.
+// The new history; what the library's own merges do with each number. Magnitudes must stay below half the largest float.
+// From the nearer end: a weight of 1 leaves no trace of a large history, and equal values stay equal to the bit.
+CLV_FN float clvMergeStep(float history, float current, float weight) {
+    float change = current - history;
+    return weight < 0.5f ? history + weight * change : current - (1.0f - weight) * change;
+}
+CLV_FN vec4 clvMergeStep(vec4 history, vec4 current, float weight) {
+    vec4 change = current - history;
+    return weight < 0.5f ? history + change * weight : current - change * (1.0f - weight);
+}
+
+// The same for values of another source: one that is not finite loses to the other one.
 CLV_FN float clvMergeValue(float history, float current, float weight) {
     if (!clvIsFinite(current) || !clvIsFinite(weight)) return history;
     if (!clvIsFinite(history)) return current;
-    // From the nearer end: a weight of 1 leaves no trace of a large history, and equal values stay equal to the bit.
-    float step = current - history;
-    return weight < 0.5f ? history + weight * step : current - (1.0f - weight) * step;
+    return clvMergeStep(history, current, weight);
 }
 
 // The same, rounded up or down by chance, so that steps below the last place of the history count in the mean over frames: a plain
@@ -67,9 +76,6 @@ CLV_FN float clvMergeDithered(float history, float current, float weight, uint r
     float merged = history + floor(weight * (current - history) * (1.0f / place) + clvUnitFloat(random)) * place;
     return clamp(merged, min(history, current), max(history, current));
 }
-
-// Four numbers of a history that is a plain mean: they move towards this frame's estimate by `weight`, (0, 1].
-CLV_FN vec4 clvMergeMean(vec4 history, vec4 current, float weight) { return history + (current - history) * weight; }
 
 // Dynamicity of a cell: the largest wins at once, and wears off slowly.
 CLV_FN float clvMergeDynamicity(CLV_IN(ClvMergeSettings) settings, float history, float current) {
