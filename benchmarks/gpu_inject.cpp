@@ -120,7 +120,7 @@ void onCpu(benchmark::State& state, const Case& scene, const DepositLayout& layo
     for (const int n : {16, 32, 64}) {
         for (const bool walls : {false, true}) {
             for (const auto& [layoutName, layout] : kLayouts) {
-                const std::string name = "gpu_inject/" + std::to_string(n) + (walls ? "/walls/" : "/open/") + layoutName + "/";
+                const std::string name = "gpu_inject/resolution:" + std::to_string(n) + (walls ? "/walls/" : "/open/") + layoutName + "/";
                 auto add = [&](const std::string& way, auto&& body) {
                     return benchmark::RegisterBenchmark((name + way).c_str(), [n, walls, body](benchmark::State& state) { body(state, caseOf(n, walls)); })
                         ->Unit(benchmark::kMillisecond)

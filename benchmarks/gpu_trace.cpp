@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "benchmarks/native_tracer.h"
+#include "benchmarks/stages/smaller_triangles.h"
 #include "bindings/embree/bvh.h"
 #include "bindings/embree/rsm.h"
 #include "bindings/scene/surface_rows.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t kRays = 65536;
 constexpr std::uint32_t kRsmSide = 128, kSeed = 1;
+constexpr std::size_t kMostTriangles = 100'000;
 
 struct TreeReader {
     const Bvh& bvh;
@@ -30,7 +32,7 @@ struct TreeReader {
 
 // A built-in scene on the device; its rays as the rays pass makes them, before they are cut.
 struct Case {
-    explicit Case(const std::string& name) : scene(makeBuiltinScene(name)), bvh(buildBvh(scene)) {
+    Case(const std::string& name, int cuts) : scene(withSmallerTriangles(makeBuiltinScene(name), cuts)), bvh(buildBvh(scene)) {
         const char* wanted = std::getenv("CLV_DEVICE");
         device = std::make_unique<VulkanDevice>(VulkanOptions{.device = wanted ? wanted : ""});
         std::vector<ClvLight> lights;
@@ -88,10 +90,10 @@ struct Case {
     std::vector<ClvRay> rays;
 };
 
-const Case& caseOf(const std::string& name) {
-    static std::map<std::string, std::unique_ptr<Case>> cases;
-    auto& made = cases[name];
-    if (!made) made = std::make_unique<Case>(name);
+const Case& caseOf(const std::string& name, int cuts) {
+    static std::map<std::pair<std::string, int>, std::unique_ptr<Case>> cases;
+    auto& made = cases[{name, cuts}];
+    if (!made) made = std::make_unique<Case>(name, cuts);
     return *made;
 }
 
@@ -131,14 +133,18 @@ void withEmbree(benchmark::State& state, const Case& c) {
 
 [[maybe_unused]] const bool kRegistered = [] {
     for (const std::string scene : {"cornell", "two_rooms", "atrium"}) {
-        auto add = [&](const std::string& way, auto&& body) {
-            return benchmark::RegisterBenchmark(("gpu_trace/" + scene + "/" + way).c_str(), [scene, body](benchmark::State& state) { body(state, caseOf(scene)); })
-                ->Unit(benchmark::kMillisecond)
-                ->MeasureProcessCPUTime();
-        };
-        add("embree", withEmbree);
-        add("host", onHost);
-        add("device", onDevice)->UseManualTime();
+        std::size_t triangles = makeBuiltinScene(scene).triangles.size();
+        for (int cuts = 0; triangles <= kMostTriangles; ++cuts, triangles *= 4) {
+            auto add = [&](const std::string& way, auto&& body) {
+                const std::string name = "gpu_trace/" + scene + "/triangles:" + std::to_string(triangles) + "/" + way;
+                return benchmark::RegisterBenchmark(name.c_str(), [scene, cuts, body](benchmark::State& state) { body(state, caseOf(scene, cuts)); })
+                    ->Unit(benchmark::kMillisecond)
+                    ->MeasureProcessCPUTime();
+            };
+            add("embree", withEmbree);
+            add("host", onHost);
+            add("device", onDevice)->UseManualTime();
+        }
     }
     return true;
 }();

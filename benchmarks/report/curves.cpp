@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
 
 namespace clv {
@@ -14,19 +15,6 @@ namespace {
 
 double workOf(const Measurement& m) {
     return double(m.rays) * m.frames;
-}
-
-struct Line {
-    double at0 = 0.0, slope = 0.0;
-};
-
-// Least squares.
-Line fitLine(std::span<const double> x, std::span<const double> y) {
-    const double n = double(x.size());
-    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], sxy += x[i] * y[i];
-    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-    return {(sy - slope * sx) / n, slope};
 }
 
 }  // namespace

@@ -60,4 +60,28 @@ RootMeanSquare rootMeanSquare(const std::vector<double>& values) {
     return {root, root > 0.0 ? studentQuantile(kConfidence, int(values.size()) - 1) * standardError / (2.0 * root) : 0.0};
 }
 
+Line fitLine(std::span<const double> x, std::span<const double> y) {
+    const double n = double(x.size());
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], sxy += x[i] * y[i];
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return {(sy - slope * sx) / n, slope};
+}
+
+PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y) {
+    const std::size_t n = x.size();
+    std::vector<double> logX, logY;
+    double mean = 0.0;
+    for (std::size_t i = 0; i < n; ++i) logX.push_back(std::log(x[i])), logY.push_back(std::log(y[i])), mean += logX.back() / double(n);
+    const Line line = fitLine(logX, logY);
+    double left = 0.0, spread = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        left += std::pow(logY[i] - line.at0 - line.slope * logX[i], 2.0);
+        spread += (logX[i] - mean) * (logX[i] - mean);
+    }
+    PowerLaw law{std::exp(line.at0), line.slope, std::numeric_limits<double>::infinity()};
+    if (n > 2) law.interval = studentQuantile(kConfidence, int(n) - 2) * std::sqrt(left / (double(n) - 2.0) / spread);
+    return law;
+}
+
 }  // namespace clv

@@ -1,5 +1,6 @@
 // Figures of repeated measurements.
 #pragma once
+#include <span>
 #include <vector>
 
 namespace clv {
@@ -19,5 +20,18 @@ struct RootMeanSquare {
     double value = 0.0, interval = 0.0;
 };
 RootMeanSquare rootMeanSquare(const std::vector<double>& values);
+
+// y = at0 + slope * x, least squares; at least two different x.
+struct Line {
+    double at0 = 0.0, slope = 0.0;
+};
+Line fitLine(std::span<const double> x, std::span<const double> y);
+
+// y = factor * x^exponent, fitted to positive numbers in logarithms; at least two different x.
+struct PowerLaw {
+    double factor = 0.0, exponent = 0.0;
+    double interval = 0.0;  // half width, 95 %, of the exponent; infinite for two pairs
+};
+PowerLaw fitPowerLaw(std::span<const double> x, std::span<const double> y);
 
 }  // namespace clv

@@ -37,4 +37,16 @@ TEST(Statistics, aRootMeanSquareHasAnIntervalFromTheSpreadOfTheSquares) {
     EXPECT_EQ(rootMeanSquare({0.0, 0.0}).interval, 0.0);
 }
 
+TEST(Statistics, powerLawsAreFittedWithTheirInterval) {
+    const std::vector<double> x = {1, 2, 4, 8};
+    EXPECT_NEAR(fitPowerLaw(x, std::vector<double>{3, 12, 48, 192}).exponent, 2.0, 1e-12);
+    EXPECT_NEAR(fitPowerLaw(x, std::vector<double>{3, 12, 48, 192}).factor, 3.0, 1e-12);
+    EXPECT_NEAR(fitPowerLaw(x, std::vector<double>{3, 12, 48, 192}).interval, 0.0, 1e-6);
+    // Logarithms to base 2: x 0 1 2 3, y 1 1 3 3. Slope 0.8, residuals 0.2 -0.6 0.6 -0.2: 0.8 over two degrees of freedom and a spread of 5.
+    const PowerLaw law = fitPowerLaw(x, std::vector<double>{2, 2, 8, 8});
+    EXPECT_NEAR(law.exponent, 0.8, 1e-12);
+    EXPECT_NEAR(law.interval, 4.3027 * std::sqrt(0.4 / 5.0), 1e-3);
+    EXPECT_TRUE(std::isinf(fitPowerLaw(std::vector<double>{1, 2}, std::vector<double>{1, 2}).interval));
+}
+
 }  // namespace
