@@ -28,8 +28,9 @@ std::optional<int> rankOf(const std::string& file) {
     return found == ranks.end() ? 0 : found->second;
 }
 
-// Bindings that see another one beside cli, which sees all: Embree builds its acceleration structure from the imported scene.
-const std::set<std::pair<std::string, std::string>> kBindingPairs{{"embree", "scene"}};
+// Bindings that see another one beside cli, which sees all: Embree builds its acceleration structure from the imported scene, and a
+// volume file names the lights and the camera.
+const std::set<std::pair<std::string, std::string>> kBindingPairs{{"embree", "scene"}, {"volume_file", "scene"}};
 
 // Why a file of the project must not include another one; empty if it may.
 std::string wrongArrow(const std::string& from, const std::string& to) {
