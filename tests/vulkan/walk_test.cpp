@@ -1,0 +1,73 @@
+// The walk in shaders: rays that it may stumble over cross the same bricks as on the processor.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "bindings/cli/stress/walk_rays.h"
+#include "vulkan/level_scene.h"
+
+using namespace clv;
+using namespace clv::test;
+
+namespace {
+
+constexpr std::uint32_t kRays = 1u << 16;
+
+// How many rays cross each brick.
+std::vector<uint> raysOfBricks(const ClvVolume& bricks, std::span<const ClvRay> rays) {
+    std::vector<uint> counts(std::size_t(bricks.resolution.x) * std::size_t(bricks.resolution.y) * std::size_t(bricks.resolution.z));
+    for (const ClvRay& ray : rays) {
+        for (ClvWalk walk = clvWalkBegin(bricks, ray); walk.running == 1;) {
+            const ClvCrossing crossing = clvWalkStep(walk, ray.direction);
+            counts[clvCellIndex(bricks, crossing.cell)] += crossing.tEnd > crossing.tBegin;
+        }
+    }
+    return counts;
+}
+
+Level openLevel(const ivec3& resolution, float cellSize, const vec3& origin) {
+    ClvVolume volume{};
+    volume.origin = origin, volume.cellSize = cellSize, volume.resolution = resolution;
+    return buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+}
+
+TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
+    VulkanDevice device({.validate = true});
+    const Level levels[] = {openLevel(ivec3(32), 0.5f, vec3(-8.0f)), openLevel(ivec3(61, 23, 40), 0.1f, vec3(0.3f, -1.7f, 2.9f)),
+                            openLevel(ivec3(1), 1.0f, vec3(0.0f)), openLevel(ivec3(1024, 1, 1), 0.25f, vec3(-128.0f, 0.0f, 0.0f)),
+                            openLevel(ivec3(16), 1e5f, vec3(-8e5f)), openLevel(ivec3(16), 4.0f, vec3(1e7f, -1e7f, 1e7f))};
+    for (const Level& level : levels) {
+        const ClvVolume bricks = clvBrickVolume(level.volume);
+        Random random(7);
+        std::vector<ClvRay> rays;
+        for (std::uint32_t k = 0; k < kRays; ++k) rays.push_back(rayOfKind(RayKind(int(k % std::uint32_t(RayKind::kCount))), random, level.volume));
+        const std::vector<uint> expected = raysOfBricks(bricks, rays);
+        ASSERT_GT(std::accumulate(expected.begin(), expected.end(), 0u), kRays / 2);
+        const BrickSlots slots = brickSlots(level);
+        LightFrameSettings settings;
+        settings.rays = kRays, settings.halves = 1, settings.inject = InjectWay::bricksPlain, settings.storage = kClvStorageCube, settings.channels = 1;
+        settings.levels = {describeLevel(level, slots)};
+        Frame description = lightFrame(settings);
+        for (const char* name : {"brick begins 0", "brick cursors 0"}) description.buffers[description.bufferIndex(name)].readBack = true;
+        for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) {
+            VulkanFrame frame(device, description, language);
+            ClvFrame constants{};
+            constants.rayCount = kRays, constants.halves = 1;
+            frame.upload("frame", constants);
+            frame.upload("rays", std::span<const ClvRay>(rays));
+            frame.upload("level 0", levelConstants(level, slots, settings, 1.0f, 1.0f));
+            uploadLevel(frame, settings, 0, level, slots);
+            frame.run("light");
+            // The list pass moves each cursor from where its brick's list begins to where it ends.
+            std::vector<uint> begins(expected.size()), counts(expected.size() + 1);
+            frame.download("brick begins 0", std::span(begins));
+            frame.download("brick cursors 0", std::span(counts));
+            counts.pop_back();
+            for (std::size_t brick = 0; brick < counts.size(); ++brick) counts[brick] -= begins[brick];
+            EXPECT_EQ(counts, expected) << level.volume.resolution.x << ", language " << int(language);
+        }
+    }
+    EXPECT_EQ(device.messages(), std::vector<std::string>());
+}
+
+}  // namespace
