@@ -80,6 +80,7 @@
 #include "cpu/build_level.h"
 #include "cpu/cell_regions.h"
 #include "cpu/evaluate.h"
+#include "cpu/explain_reading.h"
 #include "cpu/frame_rays.h"
 #include "cpu/inject.h"
 #include "cpu/level.h"

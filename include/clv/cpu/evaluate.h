@@ -68,10 +68,36 @@ inline Hub findHub(const Level& level, const ClvReceiver& receiver, const Lookup
     return {ownCell, ownSlot, receiver.position + receiver.normal * (kClvHomeOffset * h)};
 }
 
-// Depends on geometry alone, so that a still receiver may keep its weights. `allowed`, if given, has a flag a slot: others are left out.
-inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const LookupOptions& options, SlotWeights& out) {
+// Calls visit(step, offset, entry) for the cells of the grid around which a lookup may reach: 8 of trilinear interpolation, from the cell
+// whose centre is below the hub's point to the next, or 27. step: from the hub's cell; offset: of the cell's centre from the hub's
+// point, cells; entry: of the cell table.
+template <class Visit>
+void forCellsInReach(const Level& level, const Hub& hub, uint lookup, Visit&& visit) {
     const ClvVolume& v = level.volume;
-    const float inverseCell = 1.0f / v.cellSize;
+    const vec3 fromCenter = (hub.center - clvCellCenter(v, hub.cell)) * (1.0f / v.cellSize);
+    ivec3 lo(-1), hi(1);
+    if (lookup != kClvLookupLinearFit) {
+        for (int axis = 0; axis < 3; ++axis) (fromCenter[axis] < 0.0f ? hi : lo)[axis] = 0;
+    }
+    for (int dz = lo.z; dz <= hi.z; ++dz) {
+        for (int dy = lo.y; dy <= hi.y; ++dy) {
+            for (int dx = lo.x; dx <= hi.x; ++dx) {
+                const ivec3 step(dx, dy, dz);
+                const ivec3 cell = hub.cell + step;
+                if (clvCellInside(v, cell)) visit(step, vec3(step) - fromCenter, level.table[clvCellIndex(v, cell)]);
+            }
+        }
+    }
+}
+
+// Whether the hub sees slot `ordinal` of the cell at `step`.
+inline bool hubSees(const Level& level, const Hub& hub, const LookupOptions& options, const ivec3& step, uint ordinal) {
+    return !options.visibility || hub.slot == kClvNoSlot || detail::sees(level.slots[hub.slot], step, ordinal);
+}
+
+// Depends on geometry alone, so that a still receiver may keep its weights.
+inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const LookupOptions& options, SlotWeights& out) {
+    const float inverseCell = 1.0f / level.volume.cellSize;
     out.count = 0;
     const Hub hub = findHub(level, receiver, options);
     if (options.lookup == kClvLookupNearest) {
@@ -80,12 +106,6 @@ inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const
         return;
     }
     const bool fitting = options.lookup == kClvLookupLinearFit;
-    // The 8 cells of trilinear interpolation: from the cell whose centre is below the point to the next.
-    const vec3 fromCenter = (hub.center - clvCellCenter(v, hub.cell)) * inverseCell;
-    ivec3 lo(-1), hi(1);
-    if (!fitting) {
-        for (int axis = 0; axis < 3; ++axis) (fromCenter[axis] < 0.0f ? hi : lo)[axis] = 0;
-    }
     std::array<vec3, SlotWeights::kCapacity> x;
     ClvFit fit = clvFitBegin();
     auto add = [&](uint slot, float weight) {
@@ -97,24 +117,15 @@ inline void lookupWeights(const Level& level, const ClvReceiver& receiver, const
         x[i] = (s.openCentroid - receiver.position) * inverseCell;
         clvFitAdd(fit, weight * s.openVolume, x[i]);
     };
-    for (int dz = lo.z; dz <= hi.z; ++dz) {
-        for (int dy = lo.y; dy <= hi.y; ++dy) {
-            for (int dx = lo.x; dx <= hi.x; ++dx) {
-                const ivec3 step(dx, dy, dz);
-                const ivec3 cell = hub.cell + step;
-                if (!clvCellInside(v, cell)) continue;
-                const uint entry = level.table[clvCellIndex(v, cell)];
-                if (entry == kClvNoSlot) continue;
-                const float weight = clvLookupWeight(options.lookup, vec3(step) - fromCenter);
-                if (!(weight > 0.0f)) continue;
-                const CellSlots slots = slotsOfCell(level, entry);
-                for (uint i = 0; i < slots.count; ++i) {
-                    const bool inSight = !options.visibility || hub.slot == kClvNoSlot || detail::sees(level.slots[hub.slot], step, i);
-                    if (inSight) add(slots.first + i, weight);
-                }
-            }
+    forCellsInReach(level, hub, options.lookup, [&](const ivec3& step, const vec3& offset, uint entry) {
+        if (entry == kClvNoSlot) return;
+        const float weight = clvLookupWeight(options.lookup, offset);
+        if (!(weight > 0.0f)) return;
+        const CellSlots slots = slotsOfCell(level, entry);
+        for (uint i = 0; i < slots.count; ++i) {
+            if (hubSees(level, hub, options, step, i)) add(slots.first + i, weight);
         }
-    }
+    });
     if (!(fit.weight > 0.0f)) {
         // Everything was culled: the hub alone, whichever side its centroid lies on.
         out.count = 0;
@@ -144,10 +155,10 @@ inline void weighRecords(std::span<const float> deposits, std::span<const uint> 
 
 }  // namespace detail
 
-// Irradiance, W/m^2, from records of layout.stride() floats a slot: the sum over i of weights[i] (1/m^3) times the record of slots[i],
-// read for the normal. A scene without colour gives three equal channels.
-inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, std::span<const uint> slots,
-                           std::span<const float> weights, const ClvCoefficients& read) {
+// The sum over i of weights[i] (1/m^3) times the record of slots[i], layout.stride() floats a slot, read for the normal, W/m^2: it may be
+// negative where a storage rings. A scene without colour gives three equal channels.
+inline vec3 readRecords(const DepositLayout& layout, std::span<const float> deposits, std::span<const uint> slots,
+                        std::span<const float> weights, const ClvCoefficients& read) {
     alignas(64) float sum[32];
     switch (layout.stride()) {
         case 8: detail::weighRecords<8>(deposits, slots, weights, sum); break;
@@ -160,7 +171,13 @@ inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> d
     for (int k = 0; k < int(clvCoefficientCount(layout.storage)); ++k) {
         for (int c = 0; c < 3; ++c) irradiance[c] += r[k] * sum[layout.channels == 1 ? k : 3 * k + c];
     }
-    return max(irradiance, vec3(0.0f));
+    return irradiance;
+}
+
+// Irradiance, W/m^2: the same, clamped at 0.
+inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, std::span<const uint> slots,
+                           std::span<const float> weights, const ClvCoefficients& read) {
+    return max(readRecords(layout, deposits, slots, weights, read), vec3(0.0f));
 }
 inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, const SlotWeights& weights,
                            const ClvCoefficients& read) {
