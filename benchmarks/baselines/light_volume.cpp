@@ -10,8 +10,8 @@
 #include "bindings/embree/visible_points.h"
 #include "bindings/scene/scene_facts.h"
 #include "clv/cpu/build_level.h"
+#include "clv/cpu/level_choice.h"
 #include "clv/cpu/lookup_table.h"
-#include "clv/cpu/resolution.h"
 #include "clv/cpu/still_lighting.h"
 
 namespace clv {
@@ -20,12 +20,18 @@ namespace {
 constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
 constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
 constexpr std::size_t kPilotShare = 8;             // one ray in so many
+constexpr std::size_t kLeastPilots = 2 << 10;      // fewer show too little, and a guide costs what thousands of rays do
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
 constexpr std::size_t kPiece = LookupTable::kPiece;
 
 std::string storageName(unsigned storage) {
     const char* names[] = {"cube", "cube9", "sh1", "sh2"};
     return names[storage];
+}
+
+std::string lookupName(unsigned lookup) {
+    const char* names[] = {"nearest", "trilinear", "linear fit"};
+    return names[lookup];
 }
 
 // A level as it is before there is light, and how receivers read it.
@@ -40,9 +46,10 @@ struct LitLevel {
     const BuiltLevel* built;
     Volume* volume;
     double weight = 1.0;
+    AlignedFloats mean{};  // of both halves, where there are two
 };
 
-class LightVolume : public Method {
+class LightVolume : public Method, private LevelsInPlay {
 public:
     explicit LightVolume(const LightVolumeSettings& settings) : settings_(settings) {}
 
@@ -52,6 +59,8 @@ public:
                 {"storage", storageName(settings_.storage)},
                 {"grid_shift", gridShiftText(settings_.gridShift)},
                 {"readers", readersName(settings_.readers)},
+                {"lookup", lookupName(settings_.lookup)},
+                {"guided", settings_.guided ? "yes" : "no"},
                 {"weights", settings_.keptWeights ? "kept" : "at each reading"},
                 {"planned_rays", std::to_string(settings_.plannedRays)}};
     }
@@ -77,7 +86,7 @@ public:
         seed_ = seed;
         pass_ = 0;
         rays_ = traced_ = 0;
-        settled_ = !automatic();
+        choice_ = {};
         guide_.reset();
         lit_.clear();
         maps_.emplace(world_->scene, clvHashCombine(seed, 0x3u), world_->parallelFor);
@@ -89,7 +98,10 @@ public:
         if (automatic()) addLevel();
     }
 
-    void renderMaps() override { sampler_.build(maps_->render(pass_++), maps_->side(), world_->parallelFor, guide()); }
+    void renderMaps() override {
+        texels_ = maps_->render(pass_++);
+        pickTexels();
+    }
 
     void frame(std::size_t rays) override {
         std::size_t left = rays;
@@ -100,40 +112,42 @@ public:
         while (left > 0) {
             // While levels are judged all of them are filled, so that ends with about the first third of the rays.
             const std::size_t judged = std::bit_floor(std::max<std::size_t>(planned_ / 3, 1));
-            const std::size_t count = settled_ ? left : std::min(left, judged - std::min(rays_, judged - 1));
+            const std::size_t count = isSettled() ? left : std::min(left, judged - std::min(rays_, judged - 1));
             shoot(count);
             left -= count;
-            if (lit_.size() > 1) judge(rays_ >= judged);
+            if (automatic()) choice_.judge(*this, double(rays_), double(planned_), rays_ >= judged);
+        }
+        if (parts_.halves == 1) return;
+        for (LitLevel& level : lit_) {
+            if (level.weight > 0.0) averageHalves(level.volume->history(0), level.volume->history(1), world_->parallelFor, level.mean);
         }
     }
 
     void irradiance(std::span<glm::vec3> out) override {
         std::fill(out.begin(), out.end(), vec3(0.0f));
+        if (rays_ == 0) return;
         forReceivers(out.size(), [&](std::size_t i) {
             const ClvCoefficients read = layout_.read(points_[i].normal);
             for (const LitLevel& level : lit_) {
                 if (level.weight == 0.0) continue;
-                const float weight = float(level.weight / parts_.halves);
                 SlotWeights found;
-                if (!settings_.keptWeights) lookupWeights(level.built->level, points_[i], {}, found);
-                for (int half = 0; half < parts_.halves; ++half) {
-                    const auto history = level.volume->history(half);
-                    out[i] += weight * (settings_.keptWeights ? level.built->points.irradiance(i, layout_, history, read)
-                                                              : readIrradiance(layout_, history, found, read));
-                }
+                if (!settings_.keptWeights) lookupWeights(level.built->level, points_[i], lookup_, found);
+                const std::span<const float> light = shownLight(level);
+                out[i] += float(level.weight) * (settings_.keptWeights ? level.built->points.irradiance(i, layout_, light, read) : readIrradiance(layout_, light, found, read));
             }
         });
     }
 
     std::size_t bytes() const override {
         std::size_t sum = 0;
-        for (const LitLevel& level : lit_) sum += level.volume->bytes() + level.built->points.bytes() + level.built->judges.bytes();
+        for (const LitLevel& level : lit_) sum += level.volume->bytes() + level.mean.size() * sizeof(float) + level.built->points.bytes() + level.built->judges.bytes();
         return sum;
     }
     std::uint64_t raysTraced() const override { return traced_; }
 
 private:
     bool automatic() const { return settings_.resolution == 0; }
+    bool isSettled() const { return !automatic() || choice_.settled(); }
     const RayGuide* guide() const { return guide_ && guide_->worthwhile() ? &*guide_ : nullptr; }
 
     template <class Body>
@@ -148,7 +162,7 @@ private:
         const ClvVolume volume = volumeOverBounds(bounds.lo, bounds.hi, resolution, settings_.storage, settings_.gridShift);
         const auto needed = settings_.readers == Readers::anywhere ? std::vector<std::uint8_t>() : neededCells(volume, readers);
         BuiltLevel& built = built_.emplace_back(BuiltLevel{resolution, buildLevel(volume, world_->scene.probe(), needed, world_->parallelFor), {}, {}});
-        if (settings_.keptWeights) built.points = LookupTable(built.level, points_, {}, world_->parallelFor);
+        if (settings_.keptWeights) built.points = LookupTable(built.level, points_, lookup_, world_->parallelFor);
         built.judges = LookupTable(built.level, judges_, {}, world_->parallelFor);
     }
 
@@ -158,8 +172,11 @@ private:
         return lit_.emplace_back(LitLevel{&built_[next], &lighting_->addLevel(built_[next].level)});
     }
 
+    void pickTexels() { sampler_.build(texels_, maps_->side(), world_->parallelFor, guide()); }
+
     // A few rays show where light goes; where much of it leaves the scene, the others are guided. Returns their number.
     std::size_t pilot(std::size_t rays) {
+        if (!settings_.guided || rays < kLeastPilots * kPilotShare) return 0;
         std::vector<ClvRay> pilots(std::min(kMostPilots, rays / kPilotShare));
         constexpr std::size_t kPilotPiece = 2048;
         world_->parallelFor((pilots.size() + kPilotPiece - 1) / kPilotPiece, [&](std::size_t piece) {
@@ -172,10 +189,7 @@ private:
         guide_->learn(pilots);
         guide_->finish();
         traced_ += pilots.size();
-        if (guide()) {
-            --pass_;
-            renderMaps();
-        }
+        if (guide()) pickTexels();
         return pilots.size();
     }
 
@@ -192,39 +206,28 @@ private:
         lighting_->merge(*level.volume);
     }
 
-    // Foretells the errors of the levels once all planned rays are in, and mixes the best. Until this is settled a finer level joins
-    // while the finest is the best; then levels that err clearly more are dropped.
-    void judge(bool settled) {
-        LevelErrors errors = foretoldErrors();
-        while (!settled_ && bestLevel(errors) + 1 == errors.count && lit_.back().built != &built_.back()) {
-            add(addLevel());
-            errors = foretoldErrors();
-        }
-        const LevelMix mix = chooseLevels(errors);
-        for (std::size_t l = 0; l < lit_.size(); ++l) lit_[l].weight = mix[l];
-        settled_ = settled_ || settled;
-        for (int l = settled_ ? errors.count : 0; l-- > 0;) {
-            if (lit_[std::size_t(l)].weight == 0.0 && !staysInPlay(errors, l)) lit_.erase(lit_.begin() + l);
-        }
+    int count() const override { return int(lit_.size()); }
+    double rays(int level) const override { return lit_[std::size_t(level)].volume->rays(); }
+    void estimate(int which, HalfEstimates& estimates) const override {
+        const LitLevel& level = lit_[std::size_t(which)];
+        for (auto& half : estimates.half) half.resize(judges_.size());
+        forReceivers(judges_.size(), [&](std::size_t i) {
+            const ClvCoefficients read = layout_.read(judges_[i].normal);
+            for (int half = 0; half < 2; ++half) estimates.half[half][i] = level.built->judges.irradiance(i, layout_, level.volume->history(half), read);
+        });
     }
-    LevelErrors foretoldErrors() const {
-        std::vector<HalfEstimates> estimates(lit_.size());
-        std::vector<double> factor;
-        for (std::size_t l = 0; l < lit_.size(); ++l) {
-            const LitLevel& level = lit_[l];
-            for (auto& half : estimates[l].half) half.resize(judges_.size());
-            forReceivers(judges_.size(), [&](std::size_t i) {
-                const ClvCoefficients read = layout_.read(judges_[i].normal);
-                for (int half = 0; half < 2; ++half) estimates[l].half[half][i] = level.built->judges.irradiance(i, layout_, level.volume->history(half), read);
-            });
-            // A level that joined late has missed the rays before it.
-            const double missed = double(rays_) - level.volume->rays();
-            factor.push_back(std::max(1.0, (double(planned_) - missed) / level.volume->rays()));
-        }
-        return judgeLevels(estimates).withRays(factor);
+    bool addFiner() override {
+        if (lit_.back().built == &built_.back()) return false;
+        add(addLevel());
+        return true;
     }
+    void setWeight(int level, double weight) override { lit_[std::size_t(level)].weight = weight; }
+    void drop(int level) override { lit_.erase(lit_.begin() + level); }
+
+    std::span<const float> shownLight(const LitLevel& level) const { return parts_.halves == 1 ? level.volume->history(0) : std::span<const float>(level.mean); }
 
     const LightVolumeSettings settings_;
+    const LookupOptions lookup_{.lookup = settings_.lookup};
     std::optional<MethodWorld> world_;
     DepositLayout layout_;
     VolumeParts parts_;
@@ -234,12 +237,13 @@ private:
     std::uint32_t seed_ = 1, pass_ = 0;
     std::optional<LightMaps> maps_;
     std::optional<RayGuide> guide_;
+    std::span<const ClvRsmTexel> texels_;
     TexelSampler sampler_;
     std::optional<StillLighting> lighting_;
     std::vector<LitLevel> lit_;  // in play, coarse to fine
     std::size_t rays_ = 0, planned_ = 0;  // without pilots
     std::uint64_t traced_ = 0;
-    bool settled_ = true;  // the resolutions in play are chosen
+    LevelChoice choice_;
 };
 
 }  // namespace

@@ -18,6 +18,9 @@ MethodCase lightVolume(const LightVolumeSettings& settings, std::vector<std::uin
     return {.make = [settings] { return makeLightVolume(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
 
+// A third of the cells at each point, at a higher error: what budgets of a few milliseconds buy.
+LightVolumeSettings quickToRead(int resolution) { return {.resolution = resolution, .lookup = kClvLookupTrilinear, .guided = false}; }
+
 MethodCase ddgi(const DdgiSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames) {
     return {.make = [settings] { return makeDdgi(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
@@ -38,10 +41,13 @@ ReportPlan quickPlan() {
     plan.scenes = {"cornell", "atrium"};
     plan.cases = {
         lightVolume({}, {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}),
-        lightVolume({.resolution = 16}, {4 * kThousand, 16 * kThousand, 64 * kThousand}, {1, 4, 16}),
+        lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, {16 * kThousand, 64 * kThousand, 256 * kThousand}),
+        lightVolume(quickToRead(8), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 16 * kThousand}),
+        lightVolume(quickToRead(16), {4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}),
+        lightVolume({.resolution = 16, .guided = false}, {4 * kThousand, 16 * kThousand, 32 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 32}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
-        lightVolume({.resolution = 16, .readers = Readers::anywhere}, {64 * kThousand}, {1, 4, 16}),
+        lightVolume({.resolution = 16, .readers = Readers::anywhere, .guided = false}, {64 * kThousand}, {1, 4, 16}),
         {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
         thesis({.resolution = 16}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         thesis({.resolution = 32}, {64 * kThousand}, {1, 4, 16}),
@@ -63,10 +69,12 @@ ReportPlan fullPlan() {
     plan.scenes = {"cornell", "two_rooms", "atrium", "atrium_turned"};
     const std::vector<std::uint64_t> rays = {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion};
     const std::vector<int> frames = {1, 4, 16, 64};
-    plan.cases = {lightVolume({}, rays)};
+    plan.cases = {lightVolume({}, rays), lightVolume({.guided = false}, rays), lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, rays)};
+    for (const int resolution : {8, 16, 32}) plan.cases.push_back(lightVolume(quickToRead(resolution), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
     for (const int resolution : {16, 32, 64, 128}) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
     for (const int resolution : {16, 32, 64}) {
         plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, frames));
+        plan.cases.push_back(lightVolume({.resolution = resolution, .guided = false}, {64 * kThousand}, frames));
         plan.cases.push_back(lightVolume({.resolution = resolution, .readers = Readers::anywhere}, {64 * kThousand}, frames));
     }
     for (const unsigned storage : {kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) plan.cases.push_back(lightVolume({.resolution = 32, .storage = storage}, rays));

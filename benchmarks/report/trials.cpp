@@ -16,12 +16,12 @@ namespace {
 constexpr std::size_t kPoints = 1000;
 constexpr std::uint64_t kTruthSamples = 2048;
 constexpr std::uint32_t kPointSeed = 7;
-constexpr double kFewRays = 4 << 10, kTrialRays = 64 << 10;
+constexpr double kFewRays = 16 << 10, kTrialRays = 64 << 10;  // both enough for rays to be guided
 constexpr int kTrialRepeats = 5;
 // Of calibration: scenes of several kinds, none of them alike, and frames beside those of the trials.
 constexpr const char* kBuiltinScenes[] = {"cornell", "two_rooms"};
 constexpr std::uint32_t kGeneratedScenes[] = {11, 12, 13};
-constexpr double kOutcomeRays[] = {16 << 10, 256 << 10, 1 << 20};
+constexpr double kOutcomeRays[] = {32 << 10, 256 << 10, 1 << 20};
 constexpr int kOutcomeRepeats = 3;
 
 }  // namespace

@@ -85,10 +85,10 @@ void FirstBounce::run() {
         const double now = progress.seconds();
         // With a budget of time, as many rays are still to come as the pace so far promises.
         const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
-        if (levels_.size() > 1) judge(target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
+        if (job_.automatic) choice_.judge(*this, double(job_.report.rays - pilots_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
         if (options.seconds > 0.0 && now + (now - before) > timeForThis) break;
         progress.update(options.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
-        if (options.frames <= 1) round = settled_ || !job_.automatic ? kLargestRound : std::min(2 * round, kLargestRound);
+        if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestRound : std::min(2 * round, kLargestRound);
     }
     for (const LitLevel& level : levels_) {
         job_.report.bytes += level.light->bytes(), job_.report.slots += level.light->level().slots.size();
@@ -96,43 +96,23 @@ void FirstBounce::run() {
     }
 }
 
-// Foretells the errors once `targetRays` are in. Until the choice is `settled` a finer level joins while the finest one is the best;
-// then levels that err clearly more are dropped.
-void FirstBounce::judge(double targetRays, bool settled) {
-    LevelErrors errors;
-    std::vector<double> factor;
-    for (;;) {
-        job_.clock.time("choose", [&] {
-            estimates_.resize(levels_.size());
-            factor.clear();
-            for (std::size_t l = 0; l < levels_.size(); ++l) {
-                estimate(levels_[l], estimates_[l]);
-                // A level that joined late has missed the rays before it.
-                const double rays = levels_[l].light->rays(), missed = double(job_.report.rays - pilots_) - rays;
-                factor.push_back(std::max(1.0, (targetRays - missed) / rays));
-            }
-            errors = judgeLevels(estimates_).withRays(factor);
-        });
-        const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), levels_.back().resolution);
-        if (settled_ || bestLevel(errors) + 1 < errors.count || next == std::end(kResolutions)) break;
-        addLevel(*next);
-        lighting_->shootAgain(*levels_.back().light);
-    }
-    const LevelMix mix = chooseLevels(errors);
-    for (std::size_t l = 0; l < levels_.size(); ++l) levels_[l].weight = mix[l];
-    settled_ = settled_ || settled;
-    if (!settled_) return;
-    for (int l = errors.count; l-- > 0;) {
-        if (levels_[std::size_t(l)].weight == 0.0 && !staysInPlay(errors, l)) levels_.erase(levels_.begin() + l);
-    }
+bool FirstBounce::addFiner() {
+    const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), levels_.back().resolution);
+    if (next == std::end(kResolutions)) return false;
+    addLevel(*next);
+    lighting_->shootAgain(*levels_.back().light);
+    return true;
 }
 
-void FirstBounce::estimate(const LitLevel& level, HalfEstimates& estimates) const {
-    const auto halves = level.light->histories();
-    for (auto& half : estimates.half) half.resize(job_.judges.size());
-    forReceivers(job_.judges.size(), job_.parallelFor, [&](std::size_t i) {
-        const ClvCoefficients read = job_.layout.read(job_.judges[i].normal);
-        for (std::size_t half = 0; half < 2; ++half) estimates.half[half][i] = level.lookups->judges.irradiance(i, job_.layout, halves[half], read);
+void FirstBounce::estimate(int which, HalfEstimates& estimates) const {
+    const LitLevel& level = levels_[std::size_t(which)];
+    job_.clock.time("choose", [&] {
+        const auto halves = level.light->histories();
+        for (auto& half : estimates.half) half.resize(job_.judges.size());
+        forReceivers(job_.judges.size(), job_.parallelFor, [&](std::size_t i) {
+            const ClvCoefficients read = job_.layout.read(job_.judges[i].normal);
+            for (std::size_t half = 0; half < 2; ++half) estimates.half[half][i] = level.lookups->judges.irradiance(i, job_.layout, halves[half], read);
+        });
     });
 }
 

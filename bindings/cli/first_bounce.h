@@ -1,11 +1,11 @@
 // Light straight from the lights' maps, in levels that are chosen by how much they err.
 #pragma once
 #include "bindings/cli/light_job.h"
-#include "clv/cpu/resolution.h"
+#include "clv/cpu/level_choice.h"
 
 namespace clv {
 
-class FirstBounce {
+class FirstBounce : private LevelsInPlay {
 public:
     explicit FirstBounce(LightJob& job) : job_(job) {}
 
@@ -21,14 +21,18 @@ private:
     void addLevel(int resolution);
     void shoot(std::size_t count);
     bool pilot(std::uint64_t budget);
-    void judge(double targetRays, bool settled);
-    void estimate(const LitLevel& level, HalfEstimates& estimates) const;
+
+    int count() const override { return int(levels_.size()); }
+    double rays(int level) const override { return levels_[std::size_t(level)].light->rays(); }
+    void estimate(int level, HalfEstimates& estimates) const override;
+    bool addFiner() override;
+    void setWeight(int level, double weight) override { levels_[std::size_t(level)].weight = weight; }
+    void drop(int level) override { levels_.erase(levels_.begin() + level); }
 
     LightJob& job_;
     std::unique_ptr<Lighting> lighting_;
     std::vector<LitLevel> levels_;  // coarse to fine
-    std::vector<HalfEstimates> estimates_;
-    bool settled_ = false;          // no further level joins
+    LevelChoice choice_;
     std::optional<RayGuide> guide_;
     std::size_t pilots_ = 0;
     SentPower sent_;

@@ -1,5 +1,9 @@
 #include "bindings/cli/lit_level.h"
 
+#include <deque>
+
+#include "clv/cpu/volume.h"
+
 namespace clv {
 
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
@@ -10,10 +14,16 @@ void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which
         float weight;
     };
     std::vector<Part> parts;
+    std::deque<AlignedFloats> means;
     for (const LitLevel& level : levels) {
         if (level.weight == 0.0) continue;
         const auto halves = level.light->histories();
-        for (const auto& history : halves) parts.push_back({level.lookups.get()->*which, history, scale * float(level.weight) / float(halves.size())});
+        std::span<const float> history = halves[0];
+        if (halves.size() == 2) {
+            averageHalves(halves[0], halves[1], parallelFor, means.emplace_back());
+            history = means.back();
+        }
+        parts.push_back({level.lookups.get()->*which, history, scale * float(level.weight)});
     }
     forReceivers(receivers.size(), parallelFor, [&](std::size_t i) {
         const ClvCoefficients read = layout.read(receivers[i].normal);

@@ -84,6 +84,7 @@
 #include "cpu/frame_rays.h"
 #include "cpu/inject.h"
 #include "cpu/level.h"
+#include "cpu/level_choice.h"
 #include "cpu/line_grid.h"
 #include "cpu/lookup_table.h"
 #include "cpu/moving_level.h"

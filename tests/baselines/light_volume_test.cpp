@@ -83,6 +83,23 @@ TEST(LightVolumeMethod, weightsFoundAtEachReadingAreThoseThatAreKept) {
     EXPECT_EQ(kept, lightOf(room, {.resolution = 16, .readers = Readers::receivers, .keptWeights = false}, 1, 16 << 10));
 }
 
+TEST(LightVolumeMethod, aSphereReadsTheSameInEachWay) {
+    MeasuredRoom room("white_sphere");
+    room.points = surfacePoints(room.scene, 200, 5);
+    for (const uint lookup : {kClvLookupNearest, kClvLookupTrilinear, kClvLookupLinearFit}) {
+        MeanOf mean;
+        for (const glm::vec3& e : lightOf(room, {.resolution = 16, .readers = Readers::receivers, .lookup = lookup}, 1, 1 << 18)) mean.add(e.x);
+        EXPECT_NEAR(mean.mean() / (0.8 * 4.0 * M_PI / surfaceArea(room.scene)), 1.0, 0.02) << lookup;
+    }
+}
+
+TEST(LightVolumeMethod, enoughRaysAreGuidedWhereMuchLightLeaves) {
+    const MeasuredRoom room("atrium", 20, 1);
+    const LightVolumeSettings guided{.resolution = 8, .readers = Readers::receivers}, unguided{.resolution = 8, .readers = Readers::receivers, .guided = false};
+    EXPECT_NE(lightOf(room, guided, 1, 16 << 10), lightOf(room, unguided, 1, 16 << 10));
+    EXPECT_EQ(lightOf(room, guided, 1, 8 << 10), lightOf(room, unguided, 1, 8 << 10));
+}
+
 TEST(LightVolumeMethod, lightFollowsFromTheSeed) {
     expectLightFollowsFromTheSeed([] { return makeLightVolume({.resolution = 12, .readers = Readers::receivers}); }, 16 << 10);
 }

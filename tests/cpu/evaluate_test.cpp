@@ -6,6 +6,7 @@
 #include "box_scene.h"
 #include "clv/cpu/aligned.h"
 #include "clv/cpu/build_level.h"
+#include "clv/cpu/volume.h"
 #include "support/chi_square.h"
 
 using namespace clv;
@@ -205,6 +206,13 @@ TEST(Lookup, negativeReadingsAreClampedAndGreyRecordsGiveThreeEqualChannels) {
     EXPECT_EQ(readIrradiance(kLayout, deposits, weights, clvReadCoefficients(kClvStorageCube, -x)), vec3(6.0f));
     const AlignedFloats below{-1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(readIrradiance(kLayout, below, weights, clvReadCoefficients(kClvStorageCube, x)), vec3(0.0f));
+}
+
+TEST(Lookup, theMeanOfTwoHalvesReadsAsTheyDoTogether) {
+    const AlignedFloats a(70000, 3.0f), b(70000, -1.0f);
+    AlignedFloats mean;
+    averageHalves(a, b, serialFor(), mean);
+    EXPECT_EQ(mean, AlignedFloats(70000, 1.0f));
 }
 
 }  // namespace

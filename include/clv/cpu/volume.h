@@ -75,5 +75,14 @@ private:
     double rays_ = 0.0;
 };
 
+// The mean of two halves, so that receivers read one record a slot.
+inline void averageHalves(std::span<const float> a, std::span<const float> b, const ParallelFor& parallelFor, AlignedFloats& mean) {
+    constexpr std::size_t kPiece = 64 << 10;  // floats
+    mean.resize(a.size());
+    parallelFor((a.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        for (std::size_t k = piece * kPiece; k < std::min(a.size(), (piece + 1) * kPiece); ++k) mean[k] = 0.5f * (a[k] + b[k]);
+    });
+}
+
 }  // namespace clv
 #endif
