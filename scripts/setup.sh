@@ -8,12 +8,13 @@ buildPackages=(
     libassimp-dev zlib1g-dev                  # assimp's CMake package links zlib, but its Debian package does not bring it
     libopenimageio-dev openimageio-tools      # the same for OpenImageIO's tools, which its CMake package checks for
     libcli11-dev nlohmann-json3-dev libfmt-dev
-    libvtk9-dev                               # plots of the report
+    libvtk9-dev                               # plots of the report, volume files, the inspector
     libvulkan-dev glslang-tools spirv-tools   # the Vulkan back end and the shaders that it runs
     libgtest-dev libbenchmark-dev
 )
-# What the tests run beside that: compilers for every language that the shared headers are written in.
-testPackages=(clang-14 mesa-vulkan-drivers vulkan-validationlayers spirv-cross)
+# What the tests run beside that: compilers for every language that the shared headers are written in, and a display, a mouse and keys
+# for the inspector.
+testPackages=(clang-14 mesa-vulkan-drivers vulkan-validationlayers spirv-cross xvfb xdotool)
 
 # Installs those of the named packages that are missing, or says which they are and ends with 1.
 installPackages() {

@@ -22,11 +22,11 @@ struct CommandResult {
 // A running command. Its stderr is a terminal where `terminal` is set, else a pipe, as its stdout is.
 class RunningCommand {
 public:
-    explicit RunningCommand(std::vector<std::string> arguments, bool terminal = false) {
+    explicit RunningCommand(std::vector<std::string> arguments, bool terminal = false, const std::string& program = CLV_BINARY_DIR "/clv") {
         int out[2], err[2];
         if (pipe2(out, O_CLOEXEC) != 0 || (terminal ? openpty(&err[0], &err[1], nullptr, nullptr, nullptr) : pipe2(err, O_CLOEXEC)) != 0)
             throw std::runtime_error("no pipe");
-        arguments.insert(arguments.begin(), CLV_BINARY_DIR "/clv");
+        arguments.insert(arguments.begin(), program);
         std::vector<char*> argv;
         for (std::string& argument : arguments) argv.push_back(argument.data());
         argv.push_back(nullptr);

@@ -1,0 +1,102 @@
+#include "viz/canvas.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkLookupTable.h>
+#include <vtkTextProperty.h>
+
+#include "viz/plot_actor.h"
+#include "viz/volume_prop.h"
+
+namespace clv {
+namespace {
+
+constexpr double kBackground[3] = {0.09, 0.09, 0.11};
+constexpr int kBarColors = 256, kTextSize = 13;
+// A renderer that is to be drawn this often or oftener is being turned; at rest VTK asks for far less.
+constexpr double kTurningRate = 1.0;  // frames/s
+
+vtkSmartPointer<vtkLookupTable> tableOf(const ColorScale& scale) {
+    auto table = vtkSmartPointer<vtkLookupTable>::New();
+    table->SetNumberOfTableValues(kBarColors);
+    table->SetTableRange(scale.lo, scale.hi);
+    for (int i = 0; i < kBarColors; ++i) {
+        const glm::u8vec3 color = scale.color(scale.lo + (scale.hi - scale.lo) * i / (kBarColors - 1));
+        table->SetTableValue(i, color.x / 255.0, color.y / 255.0, color.z / 255.0, 1.0);
+    }
+    return table;
+}
+
+void setText(vtkTextProperty& text) {
+    text.SetFontFamilyToCourier();
+    text.SetFontSize(kTextSize);
+    text.SetColor(0.92, 0.92, 0.92);
+    text.ItalicOff();
+    text.BoldOff();
+    text.ShadowOff();
+}
+
+}  // namespace
+
+Canvas::Canvas(vtkRenderWindow& window, double left, double right) : window_(window), share_(right - left) {
+    renderer_->SetViewport(left, 0.0, right, 1.0);
+    renderer_->SetBackground(kBackground[0], kBackground[1], kBackground[2]);
+    window.AddRenderer(renderer_);
+    bar_->SetUnconstrainedFontSize(true);
+    setText(*bar_->GetLabelTextProperty());
+    setText(*bar_->GetTitleTextProperty());
+    bar_->SetPosition(0.86, 0.08);
+    bar_->SetWidth(0.1);
+    bar_->SetHeight(0.8);
+    bar_->SetLabelFormat("%-#.3g");
+    words_->SetMinimumFontSize(kTextSize);
+    words_->SetMaximumFontSize(kTextSize);
+    setText(*words_->GetTextProperty());
+    renderer_->AddViewProp(words_);
+    vtkNew<vtkCallbackCommand> beforeFrame;
+    beforeFrame->SetClientData(this);
+    beforeFrame->SetCallback([](vtkObject*, unsigned long, void* canvas, void*) { static_cast<Canvas*>(canvas)->prepareFrame(); });
+    renderer_->AddObserver(vtkCommand::StartEvent, beforeFrame);
+}
+
+Canvas::~Canvas() {
+    renderer_->RemoveAllObservers();
+    window_.RemoveRenderer(renderer_);
+}
+
+void Canvas::prepareFrame() {
+    const double* eye = renderer_->GetActiveCamera()->GetPosition();
+    cubes_.prepare(glm::vec3(eye[0], eye[1], eye[2]), window_.GetDesiredUpdateRate() > kTurningRate);
+}
+
+void Canvas::show(const Drawing& drawing) {
+    for (const auto& prop : props_) renderer_->RemoveViewProp(prop);
+    props_.clear();
+    cubes_.show(drawing.cubes, *renderer_);
+    const auto add = [&](const auto& shape) {
+        if (!shape.points.empty()) props_.push_back(actorOf(shape));
+    };
+    add(drawing.tiles);
+    add(drawing.mesh);
+    add(drawing.lines);
+    add(drawing.points);
+    add(drawing.thickLines);
+    for (const GridValues& grid : drawing.grids) props_.push_back(volumeOf(grid, *drawing.scale));
+    if (drawing.plot) props_.push_back(actorOf(*drawing.plot, int(share_ * window_.GetSize()[0]), window_.GetSize()[1]));
+    for (const auto& prop : props_) renderer_->AddViewProp(prop);
+    showScale(drawing.scale);
+    words_->SetText(vtkCornerAnnotation::UpperLeft, drawing.caption.c_str());
+}
+
+void Canvas::setPanel(const std::string& text) {
+    words_->SetText(vtkCornerAnnotation::LowerLeft, text.c_str());
+}
+
+void Canvas::showScale(const std::optional<ColorScale>& scale) {
+    renderer_->RemoveViewProp(bar_);
+    if (!scale) return;
+    bar_->SetLookupTable(tableOf(*scale));
+    bar_->SetTitle(scale->title.c_str());
+    renderer_->AddViewProp(bar_);
+}
+
+}  // namespace clv

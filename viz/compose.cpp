@@ -1,0 +1,53 @@
+#include "viz/compose.h"
+
+#include <fmt/format.h>
+
+#include "viz/cell_shapes.h"
+#include "viz/outlines.h"
+#include "viz/surface_shapes.h"
+
+namespace clv {
+namespace {
+
+const glm::u8vec3 kProbeColor(120, 190, 255);
+
+const World& needed(const World* world, Subject subject) {
+    if (!world) throw InputError(fmt::format("--view {}: expected the scene of the volume; name it with --scene", nameOf(subject)));
+    return *world;
+}
+
+// A plot, and where its line runs.
+void drawProbe(const BakedVolume& volume, Quantity quantity, const View& view, Drawing& drawing) {
+    const vec3 from(view.probe->first - volume.anchor), to(view.probe->second - volume.anchor);
+    drawing.plot = probe(volume, quantity, view.filter, from, to);
+    drawing.thickLines.add(from, to, kProbeColor);
+}
+
+}  // namespace
+
+Drawing compose(const BakedVolume& volume, const World* world, const View& view, const ParallelFor& parallelFor) {
+    Drawing drawing;
+    if (view.subject == Subject::cubes) drawCubes(volume, view, parallelFor, drawing);
+    if (const auto quantity = quantityOf(view.subject)) drawQuantity(volume, *quantity, view, parallelFor, drawing);
+    if (view.subject == Subject::error) drawError(volume, needed(world, view.subject), view, parallelFor, drawing);
+    if (view.subject == Subject::mesh || view.mesh) drawMesh(volume, needed(world, Subject::mesh), view, parallelFor, drawing);
+    if (view.subject == Subject::rays || view.rays > 0) drawRays(needed(world, Subject::rays), view, parallelFor, drawing);
+    if (view.subject == Subject::texels || view.texels) drawTexels(needed(world, Subject::texels), view, parallelFor, drawing);
+    const Quantity plotted = quantityOf(view.subject).value_or(Quantity::irradiance);
+    if (view.histogram) drawing.plot = histogram(volume, plotted, view.filter, parallelFor);
+    if (view.probe) drawProbe(volume, plotted, view, drawing);
+    if (view.wireframe || view.subject == Subject::rays || view.subject == Subject::texels) drawWireframe(needed(world, view.subject).scene(), drawing);
+    if (view.boxes) drawBoxes(volume, drawing);
+    if (view.frustum) drawFrustum(volume, drawing);
+    if (view.lights) drawLights(volume, drawing);
+    return drawing;
+}
+
+Drawing composeDifference(const BakedVolume& volume, const BakedVolume& other, const View& view, const ParallelFor& parallelFor) {
+    Drawing drawing;
+    drawDifference(volume, other, quantityOf(view.subject).value_or(Quantity::irradiance), view, parallelFor, drawing);
+    if (view.boxes) drawBoxes(volume, drawing);
+    return drawing;
+}
+
+}  // namespace clv

@@ -1,0 +1,103 @@
+#include "viz/flat_actors.h"
+
+#include <numeric>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace clv {
+namespace {
+
+vtkNew<vtkPolyData> polyDataOf(std::span<const glm::vec3> positions) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToFloat();
+    points->SetNumberOfPoints(vtkIdType(positions.size()));
+    for (std::size_t i = 0; i < positions.size(); ++i) points->SetPoint(vtkIdType(i), positions[i].x, positions[i].y, positions[i].z);
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    return data;
+}
+
+vtkNew<vtkUnsignedCharArray> arrayOf(std::span<const glm::u8vec3> colors) {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(vtkIdType(colors.size()));
+    for (std::size_t i = 0; i < colors.size(); ++i) array->SetTypedTuple(vtkIdType(i), &colors[i][0]);
+    return array;
+}
+
+// Cells of `corners` points each, one after the other.
+vtkNew<vtkCellArray> runs(std::size_t points, int corners) {
+    vtkNew<vtkCellArray> cells;
+    cells->Use32BitStorage();
+    cells->AllocateExact(vtkIdType(points) / corners, vtkIdType(points));
+    std::vector<vtkIdType> ids(static_cast<std::size_t>(corners));
+    for (std::size_t first = 0; first < points; first += ids.size()) {
+        std::iota(ids.begin(), ids.end(), vtkIdType(first));
+        cells->InsertNextCell(corners, ids.data());
+    }
+    return cells;
+}
+
+vtkSmartPointer<vtkActor> actorOf(vtkPolyData* data) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    mapper->StaticOn();
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    actor->GetProperty()->LightingOff();
+    return actor;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkActor> actorOf(const FlatQuads& quads) {
+    const auto data = polyDataOf(quads.points);
+    data->SetPolys(runs(quads.points.size(), 4));
+    data->GetCellData()->SetScalars(arrayOf(quads.colors));
+    const auto actor = actorOf(data);
+    actor->GetProperty()->SetBackfaceCulling(quads.oneSided);
+    return actor;
+}
+
+vtkSmartPointer<vtkActor> actorOf(const FlatTriangles& triangles) {
+    const auto data = polyDataOf(triangles.points);
+    vtkNew<vtkCellArray> cells;
+    cells->Use32BitStorage();
+    cells->AllocateExact(vtkIdType(triangles.corners.size()), vtkIdType(3 * triangles.corners.size()));
+    for (const glm::uvec3& c : triangles.corners) {
+        const vtkIdType ids[] = {vtkIdType(c.x), vtkIdType(c.y), vtkIdType(c.z)};
+        cells->InsertNextCell(3, ids);
+    }
+    data->SetPolys(cells);
+    data->GetPointData()->SetScalars(arrayOf(triangles.colors));
+    const auto actor = actorOf(data);
+    actor->GetProperty()->BackfaceCullingOn();
+    return actor;
+}
+
+vtkSmartPointer<vtkActor> actorOf(const FlatLines& lines) {
+    const auto data = polyDataOf(lines.points);
+    data->SetLines(runs(lines.points.size(), 2));
+    data->GetCellData()->SetScalars(arrayOf(lines.colors));
+    const auto actor = actorOf(data);
+    actor->GetProperty()->SetLineWidth(lines.width);
+    return actor;
+}
+
+vtkSmartPointer<vtkActor> actorOf(const FlatPoints& points) {
+    const auto data = polyDataOf(points.points);
+    data->SetVerts(runs(points.points.size(), 1));
+    data->GetPointData()->SetScalars(arrayOf(points.colors));
+    const auto actor = actorOf(data);
+    actor->GetProperty()->SetPointSize(points.size);
+    return actor;
+}
+
+}  // namespace clv

@@ -1,0 +1,89 @@
+#include "viz/keys.h"
+
+#include <fmt/format.h>
+
+#include "viz/inspector.h"
+
+namespace clv {
+namespace {
+
+constexpr double kExposureStep = 0.5;    // powers of two
+constexpr float kThresholdFactor = 2.0f;
+constexpr float kFirstThreshold = 1e-3f; // W/m^2
+
+// An act that changes the view, after which it is drawn again.
+template <class Change>
+std::function<void(Inspector&)> changing(Change change) {
+    return [change](Inspector& inspector) {
+        change(inspector.view());
+        inspector.refresh();
+    };
+}
+
+std::function<void(Inspector&)> toggling(bool View::*flag) {
+    return changing([flag](View& view) { view.*flag = !(view.*flag); });
+}
+
+void nextCascade(Inspector& inspector) {
+    std::optional<uint>& shown = inspector.view().filter.cascade;
+    const uint next = shown ? *shown + 1 : 0;
+    shown = next < inspector.pane().volume().cascades.size() ? std::optional(next) : std::nullopt;
+    inspector.refresh();
+}
+
+std::vector<Key> makeKeys() {
+    std::vector<Key> keys;
+    keys.push_back({"h", "h", "this help", [](Inspector& i) { i.toggleHelp(); }});
+    for (int k = 0; k < kSubjects; ++k) {
+        const std::string digit = std::to_string((k + 1) % 10);
+        keys.push_back({digit, digit, nameOf(Subject(k)), changing([k](View& view) { view.subject = Subject(k); })});
+    }
+    keys.push_back({"o", "o", "quantities on cells, slices, as a volume", changing([](View& view) { view.carrier = Carrier((int(view.carrier) + 1) % 3); })});
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string name(1, char('x' + axis));
+        keys.push_back({name, name, "slicing plane across " + name + ", on and off", [axis](Inspector& i) { i.togglePlane(axis); }});
+    }
+    keys.push_back({"c", "c", "each cascade alone, then all", nextCascade});
+    keys.push_back({"Up", "up", "threshold higher: fewer cells", changing([](View& view) { view.filter.threshold = std::max(kFirstThreshold, view.filter.threshold * kThresholdFactor); })});
+    keys.push_back({"Down", "down", "threshold lower", changing([](View& view) { view.filter.threshold = view.filter.threshold > kFirstThreshold ? view.filter.threshold / kThresholdFactor : 0.0f; })});
+    keys.push_back({"plus", "+", "brighter", changing([](View& view) { view.exposure += kExposureStep; })});
+    keys.push_back({"minus", "-", "darker", changing([](View& view) { view.exposure -= kExposureStep; })});
+    keys.push_back({"m", "m", "surfaces beside the view", toggling(&View::mesh)});
+    keys.push_back({"i", "i", "indirect light on surfaces", toggling(&View::indirect)});
+    keys.push_back({"d", "d", "direct light on surfaces", toggling(&View::direct)});
+    keys.push_back({"k", "k", "backs of surfaces", toggling(&View::backs)});
+    keys.push_back({"w", "w", "edges of the scene", toggling(&View::wireframe)});
+    keys.push_back({"b", "b", "boxes around cascades", toggling(&View::boxes)});
+    keys.push_back({"f", "f", "frustum of the volume's camera", toggling(&View::frustum)});
+    keys.push_back({"l", "l", "lights", toggling(&View::lights)});
+    keys.push_back({"t", "t", "texels of the lights' maps", toggling(&View::texels)});
+    keys.push_back({"p", "p", "plane culling when surfaces read the volume", changing([](View& view) { view.lookup.planeCulling = !view.lookup.planeCulling; })});
+    keys.push_back({"v", "v", "visibility when surfaces read the volume", changing([](View& view) { view.lookup.visibility = !view.lookup.visibility; })});
+    keys.push_back({"g", "g", "histogram of the quantity", toggling(&View::histogram)});
+    keys.push_back({"a", "a", "plot along the line between the last two clicks", [](Inspector& i) { i.toggleProbe(); }});
+    keys.push_back({"space", "space", "play the frames, pause", [](Inspector& i) { i.togglePlaying(); }});
+    keys.push_back({"Right", "right", "next frame", [](Inspector& i) { i.showFrame(i.frame() + 1); }});
+    keys.push_back({"Left", "left", "frame before", [](Inspector& i) { i.showFrame(i.frame() > 0 ? i.frame() - 1 : 0); }});
+    keys.push_back({"Home", "home", "first frame", [](Inspector& i) { i.showFrame(0); }});
+    keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames() - 1); }});
+    keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
+    keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
+    return keys;
+}
+
+}  // namespace
+
+const std::vector<Key>& keys() {
+    static const std::vector<Key> all = makeKeys();
+    return all;
+}
+
+std::string keyHelp() {
+    std::string help =
+        "left button    turn; click: what is there; drag a slicing plane\n"
+        "middle, right  pan, zoom\n";
+    for (const Key& key : keys()) help += fmt::format("{:<14} {}\n", key.shown, key.meaning);
+    return help;
+}
+
+}  // namespace clv

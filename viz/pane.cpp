@@ -1,0 +1,21 @@
+#include "viz/pane.h"
+
+#include <algorithm>
+
+namespace clv {
+
+Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame) : file_(file), series_(file) {
+    loadFrame(frame);
+    try {
+        world_.emplace(volume_, scene);
+    } catch (const InputError&) {
+        if (!scene.empty()) throw;
+    }
+}
+
+void Pane::loadFrame(std::size_t frame) {
+    volume_ = series_.load(std::min(frame, series_.frames() - 1));
+    if (world_) world_->setLights(volume_.lights);
+}
+
+}  // namespace clv

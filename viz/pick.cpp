@@ -1,0 +1,84 @@
+#include "viz/pick.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clv {
+namespace {
+
+// Distance along the line to a box around `center`, m; infinite where it misses.
+float distanceToCube(const Sight& sight, const vec3& center, float edge) {
+    float enter = 0.0f, leave = kClvFar;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float a = (center[axis] - 0.5f * edge - sight.origin[axis]) / sight.direction[axis];
+        const float b = (center[axis] + 0.5f * edge - sight.origin[axis]) / sight.direction[axis];
+        // Written so that a line in the plane of a side, whose distance is not a number, keeps what the other axes say.
+        enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave ? enter : HUGE_VALF;
+}
+
+// The nearest of what was found so far.
+struct Nearest {
+    float distance = HUGE_VALF;
+    std::optional<Pick> pick;
+
+    void offer(float at, const Pick& candidate) {
+        if (at < distance) distance = at, pick = candidate;
+    }
+};
+
+void offerCells(const BakedVolume& volume, const View& view, const Sight& sight, const ParallelFor& parallelFor, Nearest& nearest) {
+    for (const ShownCell& cell : shownCells(volume, view.filter, parallelFor)) {
+        nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), {cell.center, {}, {}});
+    }
+}
+
+void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight, Nearest& nearest) {
+    for (std::size_t k = 0; k < view.slices.size(); ++k) {
+        const int axis = view.slices[k].axis;
+        const float distance = (float(view.slices[k].place - volume.anchor[axis]) - sight.origin[axis]) / sight.direction[axis];
+        if (!(distance > 0.0f)) continue;
+        const vec3 position = sight.origin + distance * sight.direction;
+        if (cellAt(volume, position, view.filter)) nearest.offer(distance, {position, {}, k});
+    }
+}
+
+void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& nearest) {
+    std::vector<LineHit> hits;
+    world.embree().lineHits(sight.origin, sight.direction, kClvFar, hits);
+    for (const LineHit& hit : hits) {
+        if (!hit.front && !backs) continue;
+        nearest.offer(hit.distance, {sight.origin + hit.distance * sight.direction, hit.front ? hit.normal : -hit.normal, {}});
+        return;
+    }
+}
+
+}  // namespace
+
+std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor) {
+    Nearest nearest;
+    const bool cells = view.subject == Subject::cubes || quantityOf(view.subject);
+    const bool surfaces = view.mesh || view.subject == Subject::mesh || view.subject == Subject::error;
+    if (cells && view.carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
+    if (cells && view.carrier == Carrier::cells) offerCells(volume, view, sight, parallelFor, nearest);
+    if (world && (surfaces || !nearest.pick)) offerSurface(*world, view.backs, sight, nearest);
+    return nearest.pick;
+}
+
+float draggedPlace(const vec3& grabbed, int axis, const Sight& sight) {
+    vec3 along(0.0f);
+    along[axis] = 1.0f;
+    // Closest points of two lines: grabbed + s along, origin + t direction.
+    const vec3 between = sight.origin - grabbed;
+    const float cosine = dot(along, sight.direction), denominator = 1.0f - cosine * cosine;
+    if (denominator < 1e-6f) return grabbed[axis];
+    return grabbed[axis] + (dot(between, along) - cosine * dot(between, sight.direction)) / denominator;
+}
+
+vec3 draggedPosition(const vec3& grabbed, const vec3& screenNormal, const Sight& sight) {
+    const float distance = dot(grabbed - sight.origin, screenNormal) / dot(sight.direction, screenNormal);
+    return sight.origin + distance * sight.direction;
+}
+
+}  // namespace clv

@@ -1,0 +1,12 @@
+// A window's picture as a file.
+#pragma once
+#include <string>
+
+#include <vtkRenderWindow.h>
+
+namespace clv {
+
+// Draws the window and writes it as PNG, complete or not at all. Throws InputError.
+void writePicture(vtkRenderWindow& window, const std::string& file);
+
+}  // namespace clv

@@ -1,0 +1,72 @@
+#include "viz/run.h"
+
+#include <algorithm>
+#include <string>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include "viz/benchmark.h"
+#include "viz/describe.h"
+#include "viz/inspector.h"
+#include "viz/options.h"
+
+namespace clv {
+namespace {
+
+constexpr int kSuccess = 0;
+constexpr int kRunTimeFailure = 1;
+constexpr int kBadUsageOrInput = 2;
+
+int fail(int status, std::string message) {
+    std::ranges::replace(message, '\n', ' ');
+    fmt::print(stderr, "clv-viz: {}\n", message);
+    return status;
+}
+
+void printPicks(const VizOptions& options) {
+    const BakedVolume volume = Series(options.file).load(options.frame);
+    for (const std::vector<double>& n : options.picks) {
+        Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
+        if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
+        printPick(volume, pick, options.view.lookup);
+    }
+}
+
+void run(const VizOptions& options) {
+    if (!options.picks.empty()) printPicks(options);
+    if (!options.picks.empty() && options.out.empty()) return;
+    if (options.benchmark) return benchmarkViewer(options);
+    if (options.out.empty() && !displayAnswers()) throw InputError("no display answers; expected DISPLAY to name one, or --out FILE.png");
+    Inspector inspector(options);
+    if (options.out.empty()) {
+        inspector.interact();
+    } else {
+        inspector.writePicture(options.out);
+    }
+}
+
+}  // namespace
+
+int runViz(int argc, const char* const* argv) {
+    CLI::App app("The inspector of light volumes: every cell, its six sides and what surfaces read from it.", "clv-viz");
+    app.set_version_flag("--version", CLV_VERSION);
+    VizOptions options;
+    addVizOptions(app, options);
+    try {
+        app.parse(argc, argv);
+        run(options);
+        return kSuccess;
+    } catch (const CLI::Success& asked) {
+        return app.exit(asked);  // prints the help or the version
+    } catch (const CLI::Error& error) {
+        return fail(kBadUsageOrInput, error.what());
+    } catch (const InputError& error) {
+        return fail(kBadUsageOrInput, error.what());
+    } catch (const std::exception& error) {
+        return fail(kRunTimeFailure, error.what());
+    }
+}
+
+}  // namespace clv

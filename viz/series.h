@@ -1,0 +1,25 @@
+// The frames of a file: one of a .vtm, many of a .pvd.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bindings/volume_file/volume_file.h"
+
+namespace clv {
+
+class Series {
+public:
+    // Throws InputError.
+    explicit Series(const std::string& file);
+
+    std::size_t frames() const { return steps_.size(); }
+    double time(std::size_t frame) const { return steps_[frame].time; }  // s
+    // Throws InputError.
+    BakedVolume load(std::size_t frame) const { return readVolume(steps_[frame].vtm); }
+
+private:
+    std::vector<SeriesStep> steps_;
+};
+
+}  // namespace clv

@@ -1,0 +1,53 @@
+// What is looked at, and how: everything that options, keys and the mouse change.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "viz/cells.h"
+
+namespace clv {
+
+enum class Subject { cubes, irradiance, dynamicity, samples, variance, open, error, mesh, rays, texels };
+inline constexpr int kSubjects = 10;
+// Name on the command line; the subjects between cubes and error are the quantities, in their order.
+std::string nameOf(Subject subject);
+Subject subjectOf(const std::string& name);
+std::optional<Quantity> quantityOf(Subject subject);
+
+// What carries the colours of a quantity.
+enum class Carrier { cells, slices, volume };
+
+// A plane across an axis.
+struct SlicePlane {
+    int axis = 0;        // 0 to 2: across x, y or z
+    double place = 0.0;  // m, world space
+};
+
+enum class RayColor { flux, dynamicity };
+
+struct View {
+    Subject subject = Subject::cubes;
+    Carrier carrier = Carrier::cells;
+    std::vector<SlicePlane> slices;
+    CellFilter filter;
+    std::optional<glm::dvec2> range;       // of the colours; none: follows from the values
+    bool mesh = false, wireframe = false;  // of the scene, beside the subject
+    bool indirect = true, direct = false;  // light that the mesh shows
+    bool backs = false;                    // of the surfaces, too
+    bool boxes = true;                     // around the cascades
+    bool frustum = false, lights = false, texels = false;
+    std::size_t rays = 0;
+    RayColor rayColor = RayColor::flux;
+    std::optional<std::pair<glm::dvec3, glm::dvec3>> probe;  // ends of a line along which the quantity is plotted, m, world space
+    bool histogram = false;                // of the quantity
+    LookupOptions lookup{};                // how the mesh reads the volume
+    double exposure = 0.0;                 // powers of two beside what fits the view
+    std::uint64_t errorSamples = 256;      // paths a point of the reference
+};
+
+}  // namespace clv
