@@ -6,7 +6,6 @@
 #include "bindings/cli/scene_facts.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
-#include "bindings/embree/nearby_points.h"
 #include "bindings/embree/visible_points.h"
 #include "clv/cpu/build_level.h"
 
@@ -14,7 +13,6 @@ namespace clv {
 namespace {
 
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
-constexpr std::size_t kJudgesWithNearby = 2048;    // those that are filled up with neighbours
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
 
@@ -79,8 +77,7 @@ void LightJob::heedLights() {
     }
 }
 
-// Some of the points. Where there are fewer, the noise of their few cells would drown what they tell: then their neighbourhood judges too,
-// and with very few points also what the cameras see.
+// Some of the points, and with few of them some that the cameras see.
 void LightJob::chooseJudges() {
     const std::size_t count = std::min(points.size(), kJudges);
     for (std::size_t k = 0; k < count; ++k) judges.push_back(points[k * points.size() / count]);
@@ -88,10 +85,6 @@ void LightJob::chooseJudges() {
         const auto seen = visiblePoints(*embree_, kFewJudges, clvHashCombine(seed, 0x9u));
         judges.insert(judges.end(), seen.begin(), seen.end());
     }
-    if (judges.size() >= kJudges) return;
-    const float coarsestCell = volumeOver(scene, kResolutions[0], options).cellSize;
-    const auto nearby = nearbyPoints(*embree_, judges, coarsestCell, kJudgesWithNearby - judges.size(), clvHashCombine(seed, 0xau));
-    judges.insert(judges.end(), nearby.begin(), nearby.end());
 }
 
 Level LightJob::makeLevel(int resolution) {
