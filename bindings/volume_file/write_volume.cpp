@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -157,18 +158,15 @@ std::string escaped(const std::string& text) {
     return safe;
 }
 
-std::string stemOf(const std::string& name) {
-    return name.substr(0, name.rfind('.'));
-}
-
 }  // namespace
 
 void writeVolume(const std::string& vtm, const BakedVolume& volume, const PathOfName& pathOf) {
     const std::string about = describeVolume(volume).dump();
+    const std::filesystem::path name(vtm);
     std::string list;
     for (std::size_t i = 0; i < volume.cascades.size(); ++i) {
-        const std::string piece = fmt::format("{}/cascade_{}.vti", stemOf(vtm), i);
-        writeCascade(pathOf(piece), volume, i, about);
+        const std::string piece = fmt::format("{}/cascade_{}.vti", name.stem().string(), i);
+        writeCascade(pathOf((name.parent_path() / piece).string()), volume, i, about);
         list += fmt::format("    <DataSet index=\"{0}\" name=\"cascade {0}\" file=\"{1}\"/>\n", i, escaped(piece));
     }
     writeText(pathOf(vtm), fmt::format("<?xml version=\"1.0\"?>\n"

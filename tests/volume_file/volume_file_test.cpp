@@ -128,6 +128,12 @@ TEST_F(VolumeFile, vtkReadsTheCellsWithTheirUnitsWhereTheyAreInTheWorld) {
     }
 }
 
+TEST_F(VolumeFile, aVolumeInAFolderFindsItsPiecesThere) {
+    const BakedVolume read = readVolume(save(hallVolume(), "frames/7.vtm"));
+    EXPECT_EQ(read.cascades.size(), 2u);
+    EXPECT_EQ(listing("frames/7"), (std::vector<std::string>{"cascade_0.vti", "cascade_1.vti"}));
+}
+
 TEST_F(VolumeFile, aSeriesKeepsTheOrderAndTheTimesOfItsFrames) {
     writeSeries("V.pvd", std::vector<SeriesStep>{{0.0, "V/0.vtm"}, {1.0 / 60.0, "V/<1>.vtm"}}, [this](const std::string& name) { return path(name); });
     const auto steps = readSeries(file("V.pvd"));

@@ -46,6 +46,8 @@ public:
     std::span<const float> history() const { return history_.deposits; }
     // Frames, weighed alike, that a slot's history stands for.
     std::span<const float> frames() const { return frames_; }
+    // kSides numbers a slot, [0, 1]; empty where no light moves.
+    std::span<const float> dynamicity() const { return history_.dynamicity; }
     DepositTarget partial(int chunk) { return partials_[std::size_t(chunk)].target(); }
 
     // Goes to its new place between two frames. New cells take their first guess from `coarser`, which has moved before, or else,
