@@ -31,6 +31,7 @@ int runCommandLine(int argc, const char* const* argv) {
     CLI::App app("Convergent light volumes: indirect diffuse light, in watts per square metre.", "clv");
     app.set_version_flag("--version", CLV_VERSION);
     app.require_subcommand(0, 1);
+    addBakeCommand(app);
     addIrradianceCommand(app);
     addReferenceCommand(app);
     addRenderCommand(app);

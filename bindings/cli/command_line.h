@@ -9,6 +9,7 @@ namespace clv {
 int runCommandLine(int argc, const char* const* argv);
 
 // Each adds one subcommand that runs while the arguments are parsed.
+void addBakeCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 void addIrradianceCommand(CLI::App& app);
 void addPlanCommand(CLI::App& app);

@@ -18,7 +18,10 @@ constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
 
 void FirstBounce::addLevel(int resolution) {
     for (LitLevel& level : levels_) level.weight = 0.0;
-    Level level = job_.makeLevel(resolution);
+    addLevel(resolution, job_.makeLevel(resolution));
+}
+
+void FirstBounce::addLevel(int resolution, Level level) {
     auto lookups = job_.makeLookups(level);
     levels_.push_back(job_.makeLit(*lighting_, resolution, std::move(level), std::move(lookups)));
 }
@@ -52,16 +55,17 @@ bool FirstBounce::pilot(std::uint64_t budget) {
     return rays.empty() || std::ranges::any_of(rays, [](const ClvRay& ray) { return ray.maxDistance > 0.0f; });
 }
 
-void FirstBounce::run() {
+void FirstBounce::run(const AfterRound& afterRound) {
     const LightOptions& options = job_.options;
     std::uint64_t budget = options.seconds > 0.0 ? ~std::uint64_t(0) : options.allBounces ? std::max<std::uint64_t>(options.rays / 2, 1) : options.rays;
-    LightingSettings settings = job_.lightingSettings(job_.needs.halves, budget, 1);
+    LightingSettings settings = job_.lightingSettings(job_.halves, budget, 1);
     settings.firstShot = std::size_t(std::min<std::uint64_t>(budget, options.frames > 1 ? budget / options.frames : kFirstRound));
     lighting_ = job_.makeLighting(settings);
     Progress progress("light");
     if (!pilot(options.seconds > 0.0 ? kFirstRound : budget)) return;
     if (options.seconds <= 0.0) budget -= pilots_;
-    addLevel(job_.automatic ? kResolutions[0] : options.resolution);
+    for (const ClvVolume& grid : job_.grids) addLevel(options.resolution, job_.makeLevel(grid));
+    if (job_.grids.empty()) addLevel(job_.automatic ? kResolutions[0] : options.resolution);
     if (job_.automatic) addLevel(kResolutions[1]);
 
     // While levels are judged all of them are filled, so this ends with about the first quarter of the rays. A power of two: the
@@ -86,6 +90,7 @@ void FirstBounce::run() {
         // With a budget of time, as many rays are still to come as the pace so far promises.
         const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
         if (job_.automatic) choice_.judge(*this, double(job_.report.rays - pilots_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
+        if (afterRound) afterRound(pass);
         if (options.seconds > 0.0 && now + (now - before) > timeForThis) break;
         progress.update(options.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
         if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestRound : std::min(2 * round, kLargestRound);

@@ -1,5 +1,7 @@
 // Light straight from the lights' maps, in levels that are chosen by how much they err.
 #pragma once
+#include <functional>
+
 #include "bindings/cli/light_job.h"
 #include "clv/cpu/level_choice.h"
 
@@ -9,8 +11,11 @@ class FirstBounce : private LevelsInPlay {
 public:
     explicit FirstBounce(LightJob& job) : job_(job) {}
 
+    // Called after each round of rays, of which a number of frames has as many.
+    using AfterRound = std::function<void(std::uint32_t round)>;
+
     // Spends the rays that the options give it; says in the job's report what it took.
-    void run();
+    void run(const AfterRound& afterRound = {});
 
     // The levels, mixed, give one bounce.
     std::span<const LitLevel> levels() const { return levels_; }
@@ -19,6 +24,7 @@ public:
 
 private:
     void addLevel(int resolution);
+    void addLevel(int resolution, Level level);
     void shoot(std::size_t count);
     bool pilot(std::uint64_t budget);
 

@@ -27,7 +27,7 @@ public:
         : job_(job), power_(sent.on), first_(total(sent.on)), ratio_(total(sent.flux) > 0.0 ? first_ / total(sent.flux) : 0.0),
           budget_(job.options.seconds > 0.0 ? double(job.report.rays) : double(job.options.rays - std::min(job.options.rays, job.report.rays))) {}
 
-    void add(std::span<const LitLevel> source, std::span<glm::vec3> sum) {
+    void add(std::span<const LitLevel> source, const TakeLight& take) {
         Progress progress("bounces");
         const double expected = std::clamp(ratio_, 0.02, 0.98);
         const double spread = (1.0 - std::pow(expected, kMostSweeps - 1)) / (1.0 - expected);
@@ -55,7 +55,7 @@ public:
             const bool last = sweep == kMostSweeps || total(next) < kNegligible * (1.0 - std::min(ratio_, 0.999)) * first_;
             if (last && ratio_ >= kLargestRatio) warnOfNoLimit(sweep);
             source = target.level;
-            job_.evaluate(source, last && ratio_ < kLargestRatio ? float(1.0 / (1.0 - ratio_)) : 1.0f, sum);
+            take(source, last && ratio_ < kLargestRatio ? float(1.0 / (1.0 - ratio_)) : 1.0f);
             if (last) return;
             power_ = next;
             progress.update(1.0 - total(power_) / first_);
@@ -130,8 +130,8 @@ private:
 
 }  // namespace
 
-void addFurtherBounces(LightJob& job, std::span<const LitLevel> first, const SentPower& sent, std::span<glm::vec3> sum) {
-    FurtherBounces(job, sent).add(first, sum);
+void addFurtherBounces(LightJob& job, std::span<const LitLevel> first, const SentPower& sent, const TakeLight& take) {
+    FurtherBounces(job, sent).add(first, take);
 }
 
 }  // namespace clv

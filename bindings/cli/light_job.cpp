@@ -32,10 +32,14 @@ void moveTo(Scene& scene, const glm::dvec3& anchor) {
 
 }  // namespace
 
-LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAll, const ParallelFor& parallel, std::span<const ReferencePoint> readers)
-    : scene(s), options(o), seed(seedOfAll), parallelFor(parallel), needs(planNeeds(sceneFacts(s, o))), automatic(needs.halves > 1),
-      layout{o.storage, needs.channels, needs.frame}, points(receiversOf(readers)) {
+LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAll, const ParallelFor& parallel, std::span<const ReferencePoint> readers,
+                   std::vector<ClvVolume> wholeGrids)
+    : scene(s), options(o), seed(seedOfAll), parallelFor(parallel), needs(planNeeds(sceneFacts(s, o))), automatic(needs.halves > 1 && wholeGrids.empty()),
+      grids(std::move(wholeGrids)), halves(grids.empty() ? needs.halves : 2), layout{o.storage, needs.channels, needs.frame}, points(receiversOf(readers)) {
+    report.backend = options.backend.choice;
     if (!worksAtAll()) return;
+    report.channels = needs.channels;
+    report.sweeps = 1;
     clock.time("setup", [&] {
         embree_.emplace(scene);
         if (!options.proxy.empty()) {
@@ -101,6 +105,12 @@ Level LightJob::makeLevel(int resolution) {
     return level;
 }
 
+Level LightJob::makeLevel(const ClvVolume& grid) {
+    Level level;
+    clock.time("setup", [&] { level = buildLevel(grid, embree_->probe(), {}, parallelFor); });
+    return level;
+}
+
 std::shared_ptr<const Lookups> LightJob::makeLookups(const Level& level) {
     std::shared_ptr<const Lookups> lookups;
     clock.time("setup", [&] {
@@ -130,6 +140,12 @@ std::unique_ptr<Lighting> LightJob::makeLighting(const LightingSettings& setting
 
 void LightJob::evaluate(std::span<const LitLevel> levels, float scale, std::span<glm::vec3> sum) {
     clock.time("evaluate", [&] { addIrradiance(levels, &Lookups::points, layout, points, scale, parallelFor, sum); });
+}
+
+PipelineReport LightJob::takeReport() {
+    report.stages = clock.stages();
+    report.frameSeconds = clock.of({"guide", "rays", "trace", "inject", "merge", "choose", "evaluate"});
+    return std::move(report);
 }
 
 }  // namespace clv

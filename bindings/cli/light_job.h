@@ -13,13 +13,17 @@
 namespace clv {
 
 struct LightJob {
-    // All must outlive the job. Takes nothing where there is no light or nobody to read it.
-    LightJob(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor, std::span<const ReferencePoint> points);
+    // All must outlive the job. Takes nothing where there is no light or nobody to read it. grids: all of whose cells are wanted, in
+    // place of those that the points read.
+    LightJob(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor, std::span<const ReferencePoint> points,
+             std::vector<ClvVolume> grids = {});
 
-    bool worksAtAll() const { return needs.stages && !points.empty(); }
+    bool worksAtAll() const { return needs.stages && !(points.empty() && grids.empty()); }
 
     // About resolution^3 cells, with slots where receivers read.
     Level makeLevel(int resolution);
+    // With slots wherever there is open space.
+    Level makeLevel(const ClvVolume& grid);
     std::shared_ptr<const Lookups> makeLookups(const Level& level);
     LitLevel makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups);
     // stream: each lighting has one of its own, from which the seed of its rays follows.
@@ -27,6 +31,8 @@ struct LightJob {
     std::unique_ptr<Lighting> makeLighting(const LightingSettings& settings);
     // E at the points, W/m^2, times `scale` is added to `sum`.
     void evaluate(std::span<const LitLevel> levels, float scale, std::span<glm::vec3> sum);
+    // What is said once all is done; the job's own report is left empty.
+    PipelineReport takeReport();
 
     const Scene& scene;
     const LightOptions& options;
@@ -34,6 +40,8 @@ struct LightJob {
     const ParallelFor& parallelFor;
     const Needs needs;
     const bool automatic;  // the resolution is chosen here
+    const std::vector<ClvVolume> grids;  // finest first; empty: levels are made for the points
+    const int halves;      // of the rays
     const DepositLayout layout;
     std::vector<ClvReceiver> points, judges;
     SurfaceSamples surfaces;  // that send the light of further bounces

@@ -13,26 +13,6 @@
 namespace clv {
 namespace {
 
-PipelineReport lightBy(const std::string& backend, const Scene& scene, LightOptions options, std::uint32_t seed, const ParallelFor& parallelFor,
-                       std::span<const ReferencePoint> points, std::span<glm::vec3> out) {
-    options.backend.choice = backend;
-    std::fill(out.begin(), out.end(), glm::vec3(0.0f));
-    LightJob job(scene, options, seed, parallelFor, points);
-    PipelineReport& report = job.report;
-    report.backend = backend;
-    if (job.worksAtAll()) {
-        report.channels = job.needs.channels;
-        report.sweeps = 1;
-        FirstBounce first(job);
-        first.run();
-        job.evaluate(first.levels(), 1.0f, out);
-        if (job.needs.feedback && !first.levels().empty()) addFurtherBounces(job, first.levels(), first.sent(), out);
-    }
-    report.stages = job.clock.stages();
-    report.frameSeconds = job.clock.of({"guide", "rays", "trace", "inject", "merge", "choose", "evaluate"});
-    return std::move(report);
-}
-
 // The first device that is none of the processor's own, which would only do with more effort what the processor does.
 std::optional<std::string> firstGpu(const std::string& loader) {
     const std::vector<VulkanDeviceInfo> devices = vulkanDevices(loader);
@@ -45,10 +25,12 @@ std::optional<std::string> firstGpu(const std::string& loader) {
 
 }  // namespace
 
-PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
-                           std::span<const ReferencePoint> points, std::span<glm::vec3> out) {
-    const auto by = [&](const std::string& backend, const LightOptions& chosen) { return lightBy(backend, scene, chosen, seed, parallelFor, points, out); };
-    if (options.backend.choice != "auto") return by(options.backend.choice, options);
+PipelineReport onBackend(const LightOptions& options, const std::function<PipelineReport(const LightOptions&)>& run) {
+    const auto by = [&](const std::string& backend, LightOptions chosen) {
+        chosen.backend.choice = backend;
+        return run(chosen);
+    };
+    if (options.backend.choice != "auto") return run(options);
     std::string reason = "Vulkan has no device but the processor itself";
     try {
         LightOptions onGpu = options;
@@ -64,6 +46,22 @@ PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std:
     PipelineReport report = by("cpu", options);
     report.whyCpu = reason;
     return report;
+}
+
+PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std::uint32_t seed, const ParallelFor& parallelFor,
+                           std::span<const ReferencePoint> points, std::span<glm::vec3> out) {
+    return onBackend(options, [&](const LightOptions& chosen) {
+        std::fill(out.begin(), out.end(), glm::vec3(0.0f));
+        LightJob job(scene, chosen, seed, parallelFor, points);
+        if (job.worksAtAll()) {
+            FirstBounce first(job);
+            first.run();
+            const auto take = [&](std::span<const LitLevel> levels, float scale) { job.evaluate(levels, scale, out); };
+            take(first.levels(), 1.0f);
+            if (job.needs.feedback && !first.levels().empty()) addFurtherBounces(job, first.levels(), first.sent(), take);
+        }
+        return job.takeReport();
+    });
 }
 
 void reportLight(const PipelineReport& run, Report& report) {

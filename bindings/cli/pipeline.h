@@ -1,6 +1,7 @@
 // The light pipeline of the commands: from a scene to indirect irradiance at points, stage by stage, with the time of each.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,6 +33,10 @@ struct PipelineReport {
     std::string whyCpu;                    // where "auto" came to the CPU
     std::vector<std::string> warnings;
 };
+
+// Runs on the back end that the options choose; "auto" tries a GPU first, and says in the report why it came to the CPU. `run` gets the
+// options with that choice made.
+PipelineReport onBackend(const LightOptions& options, const std::function<PipelineReport(const LightOptions&)>& run);
 
 // Indirect irradiance (W/m^2, without the static ambient term) at `points`, which are relative to the scene's anchor. `out` has the
 // same size. Results depend on the options and the seed, never on the number of threads; at a fixed resolution the value at a point

@@ -1,5 +1,6 @@
 #include "bindings/cli/staged_output.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -43,16 +44,22 @@ StagedOutput::~StagedOutput() {
 
 std::string StagedOutput::path(const std::string& name) {
     const fs::path target = folder_ / name;
+    const fs::path holder = folderOf(target);
+    if (fs::exists(holder) && !fs::is_directory(holder)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", holder.string()));
+    fs::create_directories(folderOf(hidden_ / name));
     // Renaming over a device such as /dev/null would replace it for everybody.
     if (fs::exists(target) && !fs::is_regular_file(target))
         throw InputError(fmt::format("{}: expected the name of a file, but something else has that name", target.string()));
-    names_.push_back(name);
+    if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
     return (hidden_ / name).string();
 }
 
 void StagedOutput::commit() {
     withoutInterrupt([&] {
-        for (const std::string& name : names_) fs::rename(hidden_ / name, folder_ / name);
+        for (const std::string& name : names_) {
+            fs::create_directories(folderOf(folder_ / name));
+            fs::rename(hidden_ / name, folder_ / name);
+        }
     });
     names_.clear();
 }

@@ -19,7 +19,7 @@ public:
     StagedOutput(const StagedOutput&) = delete;
     StagedOutput& operator=(const StagedOutput&) = delete;
 
-    // Where to write the file that will be called `name`. Throws InputError where something other than a file has that name.
+    // Where to write the file that will be called `name`, which may begin with a folder of its own; a name may be asked for twice. Throws InputError where something other than a file has that name.
     std::string path(const std::string& name);
     // Gives all files their names, in the order in which they were asked for.
     void commit();
