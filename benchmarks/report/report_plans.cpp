@@ -5,6 +5,7 @@
 #include "benchmarks/baselines/light_volume.h"
 #include "benchmarks/baselines/path_tracing.h"
 #include "benchmarks/baselines/thesis.h"
+#include "benchmarks/baselines/vulkan_volume.h"
 
 namespace clv {
 namespace {
@@ -34,9 +35,17 @@ MethodCase propagation(const LightPropagationSettings& settings, std::vector<int
     return {.make = [settings] { return makeLightPropagation(settings); }, .rays = {1}, .frames = std::move(frames)};
 }
 
+void addVulkan(const std::string& device, std::initializer_list<int> resolutions, const std::vector<int>& frames, std::vector<MethodCase>& cases) {
+    if (device.empty()) return;
+    for (const int resolution : resolutions) {
+        const VulkanVolumeSettings settings{.device = device, .resolution = resolution};
+        cases.push_back({.make = [settings] { return makeVulkanVolume(settings); }, .rays = {64 * kThousand}, .frames = frames});
+    }
+}
+
 }  // namespace
 
-ReportPlan quickPlan() {
+ReportPlan quickPlan(const std::string& vulkanDevice) {
     ReportPlan plan;
     plan.scenes = {"cornell", "atrium"};
     plan.cases = {
@@ -59,12 +68,13 @@ ReportPlan quickPlan() {
         ddgi(kDdgiMean, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
     };
+    addVulkan(vulkanDevice, {16, 32}, {1, 4}, plan.cases);
     plan.truth = {.points = 1000, .pictureWidth = 64, .samples = 8192};
     plan.repeats = 4;
     return plan;
 }
 
-ReportPlan fullPlan() {
+ReportPlan fullPlan(const std::string& vulkanDevice) {
     ReportPlan plan;
     plan.scenes = {"cornell", "two_rooms", "atrium", "atrium_turned"};
     const std::vector<std::uint64_t> rays = {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion};
@@ -94,6 +104,7 @@ ReportPlan fullPlan() {
     for (const int resolution : {8, 16, 32}) {
         for (const int iterations : {resolution, 2 * resolution}) plan.cases.push_back(propagation({.resolution = resolution, .iterations = iterations}, {1, 4, 16}));
     }
+    addVulkan(vulkanDevice, {16, 32, 64}, {1, 4, 16}, plan.cases);
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;
     return plan;

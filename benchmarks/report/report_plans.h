@@ -4,9 +4,9 @@
 
 namespace clv {
 
-// Within three minutes on two cores.
-ReportPlan quickPlan();
+// Within three minutes on two cores. `vulkanDevice`: index or a part of its name; empty: none, and no rows of one.
+ReportPlan quickPlan(const std::string& vulkanDevice);
 // Within an hour.
-ReportPlan fullPlan();
+ReportPlan fullPlan(const std::string& vulkanDevice);
 
 }  // namespace clv

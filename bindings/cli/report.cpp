@@ -17,6 +17,7 @@
 #include "bindings/cli/options.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/staged_output.h"
+#include "bindings/vulkan/vulkan_device.h"
 
 namespace clv {
 namespace {
@@ -40,6 +41,21 @@ std::string commandLine() {
     return text;
 }
 
+// The device that rows of this library on Vulkan are measured on, or why there are none.
+struct VulkanChoice {
+    std::string name, whyNone;
+};
+
+VulkanChoice chooseVulkan() {
+    try {
+        const std::vector<VulkanDeviceInfo> devices = vulkanDevices();
+        const auto discrete = std::ranges::find(devices, std::string("discrete"), &VulkanDeviceInfo::type);
+        return {(discrete == devices.end() ? devices.front() : *discrete).name, {}};
+    } catch (const std::runtime_error& error) {
+        return {{}, error.what()};
+    }
+}
+
 void keepMethods(std::vector<MethodCase>& cases, const std::vector<std::string>& methods) {
     std::set<std::string> names;
     for (const MethodCase& one : cases) names.insert(one.make()->name());
@@ -56,14 +72,17 @@ struct ReportCommand {
     bool full = false;
     // In place of what the plan has, or empty.
     std::vector<std::string> scenes, methods;
+    std::optional<std::uint64_t> mostRays;
     std::optional<std::size_t> points;
     std::optional<std::uint64_t> truthSamples;
     std::optional<int> repeats;
 
-    ReportPlan plan() const {
-        ReportPlan plan = full ? fullPlan() : quickPlan();
+    ReportPlan plan(const VulkanChoice& vulkan) const {
+        ReportPlan plan = full ? fullPlan(vulkan.name) : quickPlan(vulkan.name);
         if (!scenes.empty()) plan.scenes = scenes;
         if (!methods.empty()) keepMethods(plan.cases, methods);
+        for (MethodCase& one : plan.cases) std::erase_if(one.rays, [&](std::uint64_t rays) { return rays > mostRays.value_or(rays); });
+        if (std::ranges::all_of(plan.cases, [](const MethodCase& one) { return one.rays.empty(); })) throw InputError(fmt::format("--most-rays {}: leaves nothing to measure", *mostRays));
         plan.truth.points = points.value_or(plan.truth.points);
         plan.truth.samples = truthSamples.value_or(plan.truth.samples);
         plan.repeats = repeats.value_or(plan.repeats);
@@ -74,7 +93,8 @@ struct ReportCommand {
 
     void run(const CLI::App& command) const {
         Report report = startReport(command, common);
-        const ReportPlan plan = this->plan();
+        const VulkanChoice vulkan = chooseVulkan();
+        const ReportPlan plan = this->plan(vulkan);
         const std::vector<Measurement> before = compare.empty() ? std::vector<Measurement>() : readReport(compare);
         const std::filesystem::path folder = outputFolder(out);
         StagedOutput output(folder);
@@ -82,6 +102,7 @@ struct ReportCommand {
         const std::vector<Measurement> all = measureAll(plan, folder, parallelForOf(common), [&](double share) { progress.update(share); });
         report.update(provenance());
         report["command_line"] = commandLine();
+        report["vulkan"] = vulkan.name.empty() ? "not measured: " + vulkan.whyNone : vulkan.name;
         const CurveLabels labels(all);
         std::map<std::string, std::vector<HeatMap>> heatMaps;
         for (const std::string& scene : plan.scenes)
@@ -117,6 +138,7 @@ void addReportCommand(CLI::App& app) {
     command->add_option("--scenes", options->scenes, "Scenes in place of the report's own: files, or names of built-in ones");
     command->add_option("--compare", options->compare, "The report.json of an earlier report; exit with 1 where an error or a ratio of times has become worse");
     command->add_option("--methods", options->methods, "Those of the report's methods to measure");
+    command->add_option("--most-rays", options->mostRays, "Leave out what takes more rays a frame")->check(CLI::PositiveNumber);
     command->add_option("--points", options->points, "Points where errors are measured")->check(CLI::Range(1, kMostPoints));
     command->add_option("--truth-samples", options->truthSamples, "Paths a point of the truth")->check(CLI::PositiveNumber);
     command->add_option("--repeats", options->repeats, "Seeds a measurement")->check(CLI::Range(1, kMostRepeats));

@@ -28,6 +28,7 @@ TEST_F(ReportCommand, badPlacesAndScenesAreRefusedInOneLine) {
     expectRefused({"report", "--out", "/proc/none"}, {"/proc/none"});
     expectRefused({"report", "--out", file("b"), "--scenes", "nowhere"}, {"nowhere"});
     expectRefused({"report", "--out", file("b"), "--methods", "magic"}, {"magic", "path_tracing"});
+    expectRefused({"report", "--out", file("b"), "--methods", "path_tracing", "--most-rays", "1"}, {"--most-rays 1", "nothing to measure"});
     std::filesystem::create_directory(file("c"));
     write("c/measurements.jsonl", "{\"key\":1}\n");
     expectRefused({"report", "--out", file("c")}, {"measurements.jsonl:1", "expected a measurement"});
@@ -35,14 +36,15 @@ TEST_F(ReportCommand, badPlacesAndScenesAreRefusedInOneLine) {
 
 TEST_F(ReportCommand, writesAPageTablesAndMeasurementsOnce) {
     const std::vector<std::string> arguments = {"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20",
-                                                "--truth-samples", "64", "--repeats", "2", "--json"};
+                                                "--truth-samples", "64", "--repeats", "2", "--most-rays", "65536", "--json"};
     const CommandResult result = runCommand(arguments);
     ASSERT_EQ(result.status, 0) << result.err;
     const auto said = nlohmann::json::parse(result.out);
     EXPECT_EQ(said.at("files"), nlohmann::json({"report.html", "report.csv", "report.json"}));
     const auto report = nlohmann::json::parse(read(file("r/report.json")));
     for (const char* key : {"commit", "processor", "date", "command_line"}) EXPECT_TRUE(report.contains(key)) << key;
-    ASSERT_GT(report.at("measurements").size(), 1u);
+    EXPECT_FALSE(report.at("vulkan").get<std::string>().empty()) << "the device, or why none was measured";
+    ASSERT_EQ(report.at("measurements").size(), 2u) << "16k and 64k rays";
     EXPECT_EQ(said.at("measurements"), report.at("measurements").size());
     for (const auto& m : report.at("measurements")) EXPECT_EQ(m.at("method"), "path_tracing");
     EXPECT_LT(report.at("measurements").back().at("relative_rmse"), report.at("measurements").front().at("relative_rmse"));
@@ -56,9 +58,22 @@ TEST_F(ReportCommand, writesAPageTablesAndMeasurementsOnce) {
     for (const std::string& name : listing("r")) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 
+TEST_F(ReportCommand, whereNoVulkanDeviceIsItSaysSoAndMeasuresTheRest) {
+    setenv("VK_DRIVER_FILES", "/nowhere", 1);
+    setenv("VK_ICD_FILENAMES", "/nowhere", 1);
+    const CommandResult result = runCommand({"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20", "--truth-samples", "64",
+                                             "--repeats", "1", "--most-rays", "16384", "--json"});
+    unsetenv("VK_DRIVER_FILES");
+    unsetenv("VK_ICD_FILENAMES");
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto said = nlohmann::json::parse(result.out);
+    EXPECT_TRUE(said.at("vulkan").get<std::string>().starts_with("not measured: ")) << said.at("vulkan");
+    EXPECT_EQ(said.at("measurements"), 1);
+}
+
 TEST_F(ReportCommand, aWorseReportFailsAndSaysWhatIsWorse) {
     std::vector<std::string> arguments = {"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20",
-                                          "--truth-samples", "64", "--repeats", "6", "--compare", file("r/report.json")};
+                                          "--truth-samples", "64", "--repeats", "6", "--most-rays", "65536", "--compare", file("r/report.json")};
     expectRefused(arguments, {"report.json", "expected the report.json"});
     arguments.resize(arguments.size() - 2);
     ASSERT_EQ(runCommand(arguments).status, 0);
