@@ -37,7 +37,7 @@ private:
 
     LightJob& job_;
     std::unique_ptr<Lighting> lighting_;
-    std::vector<LitLevel> levels_;  // coarse to fine
+    std::vector<LitLevel> levels_;  // coarse to fine, or those of the job's grids
     LevelChoice choice_;
     std::optional<RayGuide> guide_;
     std::size_t pilots_ = 0;
