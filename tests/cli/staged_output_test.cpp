@@ -23,6 +23,18 @@ TEST_F(Staged, filesAppearOnCommitAndNothingElseStays) {
     EXPECT_EQ(read(file("b.txt")), "b");
 }
 
+TEST_F(Staged, namesMayBeginWithAFolderAndBeAskedForTwice) {
+    write("taken", "");
+    StagedOutput output(folder_);
+    std::ofstream(output.path("set/piece.txt")) << "first";
+    std::ofstream(output.path("set/piece.txt")) << "again";
+    EXPECT_THROW(output.path("taken/piece.txt"), InputError);
+    EXPECT_FALSE(std::filesystem::exists(file("set")));
+    output.commit();
+    EXPECT_EQ(listing("set"), Names{"piece.txt"});
+    EXPECT_EQ(read(file("set/piece.txt")), "again");
+}
+
 TEST_F(Staged, withoutCommitTheOldFileStaysAsItWas) {
     write("a.txt", "old");
     {
