@@ -1,5 +1,7 @@
 #include "viz/canvas.h"
 
+#include <algorithm>
+
 #include <vtkCallbackCommand.h>
 #include <vtkLookupTable.h>
 #include <vtkTextProperty.h>
@@ -11,7 +13,9 @@ namespace clv {
 namespace {
 
 constexpr double kBackground[3] = {0.09, 0.09, 0.11};
-constexpr int kBarColors = 256, kTextSize = 13;
+constexpr int kBarColors = 256, kTextSize = 13, kSmallestText = 8;
+constexpr double kLineHeight = 1.3;  // of the size of letters
+constexpr int kMargin = 5;           // pixels
 // A renderer that is to be drawn this often or oftener is being turned; at rest VTK asks for far less.
 constexpr double kTurningRate = 1.0;  // frames/s
 
@@ -48,10 +52,14 @@ Canvas::Canvas(vtkRenderWindow& window, double left, double right) : window_(win
     bar_->SetWidth(0.1);
     bar_->SetHeight(0.8);
     bar_->SetLabelFormat("%-#.3g");
-    words_->SetMinimumFontSize(kTextSize);
-    words_->SetMaximumFontSize(kTextSize);
-    setText(*words_->GetTextProperty());
-    renderer_->AddViewProp(words_);
+    setText(*caption_->GetTextProperty());
+    caption_->GetTextProperty()->SetVerticalJustificationToTop();
+    caption_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+    caption_->SetPosition(0.005, 0.99);
+    setText(*panel_->GetTextProperty());
+    panel_->SetPosition(kMargin, kMargin);
+    renderer_->AddViewProp(caption_);
+    renderer_->AddViewProp(panel_);
     vtkNew<vtkCallbackCommand> beforeFrame;
     beforeFrame->SetClientData(this);
     beforeFrame->SetCallback([](vtkObject*, unsigned long, void* canvas, void*) { static_cast<Canvas*>(canvas)->prepareFrame(); });
@@ -84,11 +92,14 @@ void Canvas::show(const Drawing& drawing) {
     if (drawing.plot) props_.push_back(actorOf(*drawing.plot, int(share_ * window_.GetSize()[0]), window_.GetSize()[1]));
     for (const auto& prop : props_) renderer_->AddViewProp(prop);
     showScale(drawing.scale);
-    words_->SetText(vtkCornerAnnotation::UpperLeft, drawing.caption.c_str());
+    caption_->SetInput(drawing.caption.c_str());
 }
 
 void Canvas::setPanel(const std::string& text) {
-    words_->SetText(vtkCornerAnnotation::LowerLeft, text.c_str());
+    panel_->SetInput(text.c_str());
+    // Smaller letters where there are more lines than the window has room for beside the caption.
+    const double lines = 2.0 + double(std::ranges::count(text, '\n'));
+    panel_->GetTextProperty()->SetFontSize(std::clamp(int(window_.GetSize()[1] / lines / kLineHeight), kSmallestText, kTextSize));
 }
 
 void Canvas::showScale(const std::optional<ColorScale>& scale) {

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include <vtkCamera.h>
-#include <vtkCornerAnnotation.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
 #include "viz/drawing.h"
 
@@ -40,7 +40,7 @@ private:
     CubeActors cubes_;
     std::vector<vtkSmartPointer<vtkProp>> props_;
     vtkNew<vtkScalarBarActor> bar_;
-    vtkNew<vtkCornerAnnotation> words_;
+    vtkNew<vtkTextActor> caption_, panel_;
 };
 
 }  // namespace clv

@@ -26,7 +26,7 @@ std::vector<LitCube> mergedCubes(std::span<const LitCube> cubes);
 class CubeActors {
 public:
     // While the view turns, no more cubes than this are drawn: they are merged until they are few enough.
-    static constexpr std::size_t kMostWhileTurning = 18000;
+    static constexpr std::size_t kMostWhileTurning = 8000;
 
     void show(std::span<const LitCube> cubes, vtkRenderer& renderer);
     void clear(vtkRenderer& renderer);

@@ -16,6 +16,7 @@
 namespace clv {
 namespace {
 
+constexpr int kFirstFrames = 8;            // of live light, before anything is shown
 constexpr unsigned long kFrameTime = 100;  // ms, of a series that plays
 
 vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
@@ -23,8 +24,12 @@ vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
 }  // namespace
 
 Inspector::Inspector(const VizOptions& options) : options_(options), view_(options.view), parallelFor_(parallelForOf({.threads = options.threads})) {
-    panes_.push_back(std::make_unique<Pane>(options.file, options.scene, options.frame));
+    if (options.file.empty() && !(options.live && !options.scene.empty())) throw InputError("expected the file of a volume, or --live with --scene; see --help");
+    panes_.push_back(options.file.empty() ? std::make_unique<Pane>(options.scene) : std::make_unique<Pane>(options.file, options.scene, options.frame));
+    if (options.live) startLive();
     window_->SetSize(options.width, options.height);
+    // Smooth edges cost a processor that draws twice the time, which a window that turns does not have.
+    if (options.out.empty()) window_->SetMultiSamples(0);
     window_->SetWindowName(("clv-viz " + options.file).c_str());
     if (options.without) panes_.push_back(std::make_unique<Pane>(options.file, options.scene, options.frame));
     if (!options.other.empty()) panes_.push_back(std::make_unique<Pane>(options.other, options.scene, options.frame));
@@ -36,6 +41,13 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
     frame_ = options.frame;
     composePanes();
     resetCamera();
+}
+
+void Inspector::startLive() {
+    if (!pane().world()) throw InputError("--live: expected the scene of the volume; name it with --scene");
+    live_ = std::make_unique<LiveMode>(*panes_[0], parallelFor_);
+    for (int frame = 0; frame < kFirstFrames; ++frame) live_->frame();
+    view_.lights = true;
 }
 
 void Inspector::checkCascade(const BakedVolume& volume) const {
@@ -61,7 +73,10 @@ void Inspector::interact() {
     interactor_->SetRenderWindow(window_);
     style_->grab = [this](int x, int y) { return grab(x, y); };
     style_->drag = [this](int x, int y) { drag(x, y); };
-    style_->drop = [this](int, int) { grabbed_.reset(); };
+    style_->drop = [this](int, int) {
+        grabbed_.reset();
+        if (live_ && live_->holdsLight()) live_->dropLight();
+    };
     style_->click = [this](int x, int y) { click(x, y); };
     style_->key = [this](const std::string& symbol) { key(symbol); };
     interactor_->SetInteractorStyle(style_);
@@ -73,6 +88,7 @@ void Inspector::interact() {
     onTimer->SetCallback([](vtkObject*, unsigned long, void* inspector, void*) { static_cast<Inspector*>(inspector)->tick(); });
     interactor_->AddObserver(vtkCommand::TimerEvent, onTimer);
     interactor_->CreateRepeatingTimer(kFrameTime);
+    if (live_) live_->addSliders(*interactor_);
     window_->Render();
     interactor_->Start();
 }
@@ -83,6 +99,7 @@ Drawing Inspector::drawingOf(std::size_t pane) const {
     Drawing drawing = difference ? composeDifference(panes_[0]->volume(), shown.volume(), view_, parallelFor_) : compose(shown.volume(), shown.world(), viewOf(pane), parallelFor_);
     if (!options_.other.empty()) drawing.caption = fmt::format("{}: {}", shown.file(), drawing.caption);
     if (shown.series().frames() > 1) drawing.caption += fmt::format("; frame {} of {}, {:.3f} s", frame_, shown.series().frames(), shown.series().time(frame_));
+    if (live_ && pane == 0) drawing.caption += fmt::format("\n{}", live_->times());
     return drawing;
 }
 
@@ -143,6 +160,7 @@ void Inspector::resetCamera() {
 }
 
 void Inspector::showFrame(std::size_t frame) {
+    if (live_) return;
     frame_ = std::min(frame, pane().series().frames() - 1);
     for (const auto& pane : panes_) pane->loadFrame(frame_);
     refresh();
@@ -153,6 +171,10 @@ void Inspector::togglePlaying() {
 }
 
 void Inspector::tick() {
+    if (live_) {
+        live_->frame();
+        refresh();
+    }
     if (playing_) showFrame(frame_ + 1 < pane().series().frames() ? frame_ + 1 : 0);
 }
 
@@ -180,13 +202,19 @@ Sight Inspector::sightAt(int x, int y, std::size_t pane) {
 
 bool Inspector::grab(int x, int y) {
     const std::size_t pane = paneAt(x);
+    if (live_ && live_->grabLight(sightAt(x, y, pane))) return true;
     if (view_.carrier != Carrier::slices) return false;
     grabbed_ = pickAlong(panes_[pane]->volume(), panes_[pane]->world(), view_, sightAt(x, y, pane), parallelFor_);
     if (grabbed_ && !grabbed_->slice) grabbed_.reset();
     return grabbed_.has_value();
 }
 
+vec3 Inspector::screenNormal() {
+    return vecOf(canvases_[0]->renderer().GetActiveCamera()->GetDirectionOfProjection());
+}
+
 void Inspector::drag(int x, int y) {
+    if (live_ && live_->holdsLight()) return live_->dragLight(screenNormal(), sightAt(x, y, paneAt(x)));
     SlicePlane& plane = view_.slices[*grabbed_->slice];
     plane.place = draggedPlace(grabbed_->position, plane.axis, sightAt(x, y, paneAt(x))) + pane().volume().anchor[plane.axis];
     refresh();

@@ -9,6 +9,7 @@
 #include <vtkRenderWindowInteractor.h>
 
 #include "viz/canvas.h"
+#include "viz/live_mode.h"
 #include "viz/mouse_style.h"
 #include "viz/options.h"
 #include "viz/pane.h"
@@ -56,6 +57,8 @@ private:
     void composePanes();
     void showPanels();
     void tick();
+    void startLive();
+    vec3 screenNormal();
 
     const VirtualDisplay display_;  // outlives the window
     VizOptions options_;
@@ -66,6 +69,7 @@ private:
     std::vector<std::unique_ptr<Canvas>> canvases_;  // a pane each
     vtkNew<vtkRenderWindowInteractor> interactor_;
     vtkNew<MouseStyle> style_;
+    std::unique_ptr<LiveMode> live_;  // null: the light is that of the file
     std::optional<Pick> picked_;    // the last click
     std::optional<Pick> grabbed_;   // what the mouse drags
     std::size_t frame_ = 0;

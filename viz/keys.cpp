@@ -65,7 +65,7 @@ std::vector<Key> makeKeys() {
     keys.push_back({"Right", "right", "next frame", [](Inspector& i) { i.showFrame(i.frame() + 1); }});
     keys.push_back({"Left", "left", "frame before", [](Inspector& i) { i.showFrame(i.frame() > 0 ? i.frame() - 1 : 0); }});
     keys.push_back({"Home", "home", "first frame", [](Inspector& i) { i.showFrame(0); }});
-    keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames() - 1); }});
+    keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames()); }});
     keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
     keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
     return keys;
@@ -80,7 +80,7 @@ const std::vector<Key>& keys() {
 
 std::string keyHelp() {
     std::string help =
-        "left button    turn; click: what is there; drag a slicing plane\n"
+        "left button    turn; click: what is there; drag a slicing plane, or a lamp in live mode\n"
         "middle, right  pan, zoom\n";
     for (const Key& key : keys()) help += fmt::format("{:<14} {}\n", key.shown, key.meaning);
     return help;

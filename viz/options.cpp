@@ -107,7 +107,8 @@ void addBeside(CLI::App& app, View& view) {
 }  // namespace
 
 void addVizOptions(CLI::App& app, VizOptions& options) {
-    app.add_option("volume", options.file, "A .vtm or .pvd file of clv bake")->required();
+    app.add_option("volume", options.file, "A .vtm or .pvd file of clv bake");
+    app.add_flag("--live", options.live, "Compute the light of the scene here, frame by frame; needs no file with --scene");
     auto* other = app.add_option("other", options.other, "A second one, shown beside the first with the same camera");
     app.add_flag("--difference", options.difference, "Show how the first differs from the second, in place of the second")->needs(other);
     app.add_flag("--without", options.without, "Show the view without indirect light on its left")->excludes(other);

@@ -21,6 +21,7 @@ struct VizOptions {
     int width = 1280, height = 720;  // pixels
     std::vector<std::vector<double>> picks;  // positions, m, world space, or positions and normals
     std::string out;         // picture to write in place of opening a window, or empty
+    bool live = false;       // compute the light here, frame by frame
     bool benchmark = false;  // say how fast it opens and turns, in place of opening a window
     std::size_t frame = 0;   // of a series, from 0
     int threads = 0;         // 0: all of the machine's

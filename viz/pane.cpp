@@ -13,6 +13,20 @@ Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame)
     }
 }
 
+Pane::Pane(const std::string& scene) : file_(scene) {
+    const Scene loaded = loadScene(scene);
+    volume_.scene = scene;
+    volume_.anchor = loaded.anchor;
+    volume_.lights = loaded.lights;
+    if (!loaded.cameras.empty()) volume_.camera = loaded.cameras.front();
+    world_.emplace(volume_, scene);
+}
+
+void Pane::setLights(const std::vector<NamedLight>& lights) {
+    volume_.lights = lights;
+    if (world_) world_->setLights(lights);
+}
+
 void Pane::loadFrame(std::size_t frame) {
     volume_ = series_.load(std::min(frame, series_.frames() - 1));
     if (world_) world_->setLights(volume_.lights);

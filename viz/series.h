@@ -10,6 +10,8 @@ namespace clv {
 
 class Series {
 public:
+    // Without frames.
+    Series() = default;
     // Throws InputError.
     explicit Series(const std::string& file);
 

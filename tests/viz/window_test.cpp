@@ -72,4 +72,14 @@ TEST_F(Window, keysChangeTheViewAndListThemselves) {
     EXPECT_EQ(result.err, "");
 }
 
+TEST_F(Window, liveLightRunsBesideTheViewWhileASliderMoves) {
+    open({"--live", "--scene", "cornell", "--view", "mesh", "--size", "320x180"});
+    // The first slider says how many rays a frame has.
+    ASSERT_EQ(doToWindow("mousemove 280 15 mousedown 1 mousemove 265 15 mouseup 1 sleep 0.3 mousemove 150 90 click 1"), 0);
+    const CommandResult result = close();
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(contains(result.out, "the surface receives")) << result.out;
+}
+
 }  // namespace

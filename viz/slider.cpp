@@ -1,0 +1,53 @@
+#include "viz/slider.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkProperty2D.h>
+#include <vtkTextProperty.h>
+
+namespace clv {
+namespace {
+
+// Of the window.
+constexpr double kLeft = 0.78, kRight = 0.97, kTop = 0.92, kRowHeight = 0.1;
+
+}  // namespace
+
+Slider::Slider(vtkRenderWindowInteractor& interactor, int row, const std::string& title, double lo, double hi, double value,
+               std::function<void(double)> change, std::function<std::string(double)> show)
+    : title_(title), change_(std::move(change)), show_(std::move(show)) {
+    const double y = kTop - row * kRowHeight;
+    shape_->SetMinimumValue(lo);
+    shape_->SetMaximumValue(hi);
+    shape_->SetValue(value);
+    shape_->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+    shape_->GetPoint1Coordinate()->SetValue(kLeft, y);
+    shape_->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+    shape_->GetPoint2Coordinate()->SetValue(kRight, y);
+    shape_->ShowSliderLabelOff();
+    shape_->SetTitleHeight(0.018);
+    shape_->SetSliderLength(0.015);
+    shape_->SetTubeWidth(0.004);
+    shape_->SetEndCapLength(0.0);
+    shape_->GetTitleProperty()->SetColor(0.92, 0.92, 0.92);
+    shape_->GetTitleProperty()->ShadowOff();
+    shape_->SetTitleText((title_ + ": " + show_(value)).c_str());
+    widget_->SetInteractor(&interactor);
+    widget_->SetRepresentation(shape_);
+    widget_->SetAnimationModeToJump();
+    vtkNew<vtkCallbackCommand> onChange;
+    onChange->SetClientData(this);
+    onChange->SetCallback([](vtkObject*, unsigned long, void* slider, void*) { static_cast<Slider*>(slider)->changed(); });
+    widget_->AddObserver(vtkCommand::InteractionEvent, onChange);
+    widget_->EnabledOn();
+}
+
+Slider::~Slider() {
+    widget_->EnabledOff();
+}
+
+void Slider::changed() {
+    shape_->SetTitleText((title_ + ": " + show_(shape_->GetValue())).c_str());
+    change_(shape_->GetValue());
+}
+
+}  // namespace clv
