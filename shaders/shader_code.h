@@ -9,7 +9,7 @@ namespace clv {
 enum class ShaderLanguage { glsl, hlsl };
 
 struct ShaderCode {
-    std::string_view name;  // of the file, without its endings; with its stage, as in x.vert, where it draws
+    std::string_view name;  // of the file, without its endings; with its stage, as in x.vert, but in compute
     ShaderLanguage language;
     std::span<const std::uint32_t> words;
 };

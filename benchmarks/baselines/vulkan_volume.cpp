@@ -28,7 +28,7 @@ public:
 
     void prepare(const MethodWorld& world, std::span<const ReferencePoint> receivers) override {
         const Scene& scene = world.scene.scene();
-        device_.emplace(VulkanOptions{.device = settings_.device, .rayQueries = true});
+        device_.emplace(VulkanOptions{.device = settings_.device, .rayQueries = true, .rayPipelines = true});
         buildLevelFor(world, receivers);
         std::vector<ClvReceiver> points;
         for (const ReferencePoint& p : receivers) points.push_back({p.position, 0.0f, p.normal, 0.0f});
@@ -124,7 +124,7 @@ private:
         frame_.receivers = receivers;
         frame_.channels = std::uint32_t(needs.channels), frame_.turned = needs.frame != mat3(1.0f);
         frame_.trace = defaultTrace(device_->info());
-        if (frame_.trace == TraceWay::query) frame_.accelerationBytes = device_->accelerationBytes(frame_.triangles);
+        if (frame_.trace != TraceWay::walk) frame_.accelerationBytes = device_->accelerationBytes(frame_.triangles);
         frame_.inject = defaultInject(device_->info().features);
         frame_.levels = {describeLevel(level_, bricks_)};
         frame_.levels[0].lookupEntries = lookupEntries;

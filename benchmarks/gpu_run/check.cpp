@@ -32,14 +32,14 @@ std::vector<vec3> cornersOf(const StoredCase& stored) {
 Outputs runCase(VulkanDevice& device, const StoredCase& stored, InjectWay way, TraceWay trace, ShaderLanguage language) {
     LightFrameSettings settings = stored.settings;
     settings.inject = way, settings.trace = trace;
-    if (trace == TraceWay::query) settings.accelerationBytes = device.accelerationBytes(settings.triangles);
+    if (trace != TraceWay::walk) settings.accelerationBytes = device.accelerationBytes(settings.triangles);
     Frame frame = lightFrame(settings);
     for (const StoredCheck& check : stored.checks) frame.buffers.at(frame.bufferIndex(check.buffer)).readBack = true;
     VulkanFrame run(device, frame, language);
     for (const StoredBuffer& buffer : stored.buffers) {
         if (frame.bufferIndex(buffer.name) < frame.buffers.size()) run.upload(buffer.name, std::span(buffer.bytes));
     }
-    if (trace == TraceWay::query) {
+    if (trace != TraceWay::walk) {
         run.upload("corners", std::span<const vec3>(cornersOf(stored)));
         run.run("scene");
     }
@@ -120,8 +120,10 @@ std::vector<CaseResult> checkCases(VulkanDevice& device, const std::filesystem::
         for (const InjectWay way : ways) {
             for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) check(way, TraceWay::walk, language);
         }
-        // Queries are of GLSL alone.
-        if (traces(stored) && device.info().features.rayQueries) check(ways.front(), TraceWay::query, ShaderLanguage::glsl);
+        // Other ways to trace than the walk are of GLSL alone.
+        for (const TraceWay trace : traceWaysOf(device.info())) {
+            if (traces(stored) && trace != TraceWay::walk) check(ways.front(), trace, ShaderLanguage::glsl);
+        }
         if (!stored.settings.levels.empty() && ways.front() != InjectWay::slices) results.push_back(repeatCase(device, stored));
     }
     return results;

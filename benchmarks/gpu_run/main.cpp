@@ -70,7 +70,7 @@ std::string versionText(std::uint32_t version) {
 
 Json deviceJson(const VulkanDeviceInfo& info) {
     return Json::object({{"name", info.name}, {"driver", info.driver}, {"type", info.type}, {"vulkan", versionText(info.apiVersion)}, {"memory_bytes", info.memory},
-                         {"float_atomics", info.features.floatAtomics}, {"subgroup_size", info.features.subgroupSize}, {"ray_queries", info.features.rayQueries}, {"draws_slices", drawsSlices(info.features)}});
+                         {"float_atomics", info.features.floatAtomics}, {"subgroup_size", info.features.subgroupSize}, {"ray_queries", info.features.rayQueries}, {"ray_pipelines", info.features.rayPipelines}, {"draws_slices", drawsSlices(info.features)}});
 }
 
 Json caseJson(const CaseResult& result) {
@@ -131,7 +131,7 @@ void printFrame(const TimedFrame& frame) {
 bool run(const Options& options) {
     // First as it comes, to see what it has; then with the features that it has.
     const VulkanFeatures features = VulkanDevice({.device = options.device}).info().features;
-    const VulkanOptions all{.device = options.device, .floatAtomics = features.floatAtomics, .rayQueries = true};
+    const VulkanOptions all{.device = options.device, .floatAtomics = features.floatAtomics, .rayQueries = true, .rayPipelines = true};
     VulkanDevice device(all), drawing(all);
     std::printf("%s, %s\n", device.info().name.c_str(), device.info().driver.c_str());
 

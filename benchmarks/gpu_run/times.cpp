@@ -148,7 +148,7 @@ private:
         const bool slices = way == InjectWay::slices;
         settings_.inject = way, settings_.trace = trace;
         settings_.storage = slices ? kClvStorageCube : kClvStorageCube9, settings_.rule = slices ? kClvInjectThesis : kClvInjectTrackLength;
-        if (trace == TraceWay::query) settings_.accelerationBytes = device_.accelerationBytes(settings_.triangles);
+        if (trace != TraceWay::walk) settings_.accelerationBytes = device_.accelerationBytes(settings_.triangles);
         settings_.rays = setting_.rays;
         settings_.rays = std::min(setting_.rays, largestFrameRays(settings_, device_.info().limits));
         Frame description = lightFrame(settings_);

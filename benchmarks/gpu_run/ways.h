@@ -17,13 +17,21 @@ inline std::string wayName(InjectWay way) {
     }
 }
 
-inline std::string traceName(TraceWay way) { return way == TraceWay::query ? "query" : "walk"; }
+inline std::string traceName(TraceWay way) {
+    if (way == TraceWay::walk) return "walk";
+    return way == TraceWay::query ? "query" : "pipeline";
+}
 
 // The default first.
 inline std::vector<TraceWay> traceWaysOf(const VulkanDeviceInfo& info) {
-    if (!info.features.rayQueries) return {TraceWay::walk};
-    if (defaultTrace(info) == TraceWay::query) return {TraceWay::query, TraceWay::walk};
-    return {TraceWay::walk, TraceWay::query};
+    std::vector<TraceWay> ways{defaultTrace(info)};
+    const auto add = [&](TraceWay way, bool possible) {
+        if (possible && way != ways.front()) ways.push_back(way);
+    };
+    add(TraceWay::walk, true);
+    add(TraceWay::query, info.features.rayQueries);
+    add(TraceWay::pipeline, info.features.rayPipelines);
+    return ways;
 }
 
 // Whether it draws the thesis' lines, and by the rule that the CPU knows.

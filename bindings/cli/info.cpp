@@ -32,6 +32,14 @@ std::string injectName(InjectWay way) {
     }
 }
 
+std::string traceName(TraceWay way) {
+    switch (way) {
+        case TraceWay::query: return "ray queries in compute";
+        case TraceWay::pipeline: return "ray-tracing pipelines";
+        default: return "bvh in compute";
+    }
+}
+
 // A row a device: what it is, and the path that a frame takes on it.
 void addVulkanDevices(Report& report) {
     Report rows = Report::array();
@@ -45,7 +53,7 @@ void addVulkanDevices(Report& report) {
                             {"memory_mib", device.memory >> 20},
                             {"subgroup_size", device.features.subgroupSize},
                             {"inject", injectName(defaultInject(device.features))},
-                            {"trace", defaultTrace(device) == TraceWay::query ? "ray queries in compute" : "bvh in compute"}});
+                            {"trace", traceName(defaultTrace(device))}});
         }
     } catch (const std::runtime_error& error) {
         report["vulkan_missing"] = error.what();

@@ -95,7 +95,7 @@ public:
         frame_.triangles = parts.surfaces.surfaces.size() / kClvSurfaceRows, frame_.bvhNodes = parts.bvh.children.size();
         frame_.textureTexels = parts.surfaces.textureTexels.size();
         frame_.trace = defaultTrace(parts.device.info());
-        if (frame_.trace == TraceWay::query) frame_.accelerationBytes = parts.device.accelerationBytes(frame_.triangles);
+        if (frame_.trace != TraceWay::walk) frame_.accelerationBytes = parts.device.accelerationBytes(frame_.triangles);
         frame_.rsmSide = settings.emitters > 0 ? std::uint64_t(kEmitterWidth) : std::uint64_t(maps_.side());
         const std::uint64_t mapTexels = lights_.size() * frame_.rsmSide * frame_.rsmSide;
         frame_.lights = settings.emitters == 0 && parts.ownMaps ? lights_.size() : 0;
@@ -261,7 +261,7 @@ private:
 
 VulkanBackend::VulkanBackend(const BackendOptions& options, const EmbreeScene& scene, const EmbreeScene& target, std::uint32_t seed,
                              const ParallelFor& parallelFor, StageClock& clock)
-    : device_({.device = options.device, .rayQueries = true, .loader = options.loader}), bvh_(buildBvh(target.scene())), surfaces_(surfaceRowsOf(target.scene())),
+    : device_({.device = options.device, .rayQueries = true, .rayPipelines = true, .loader = options.loader}), bvh_(buildBvh(target.scene())), surfaces_(surfaceRowsOf(target.scene())),
       parts_{device_, options.repeatable ? InjectWay::fixedPoint : defaultInject(device_.info().features), scene, bvh_, surfaces_, &scene == &target, seed, parallelFor, clock} {}
 
 std::unique_ptr<Lighting> VulkanBackend::makeLighting(const LightingSettings& settings) { return std::make_unique<VulkanLighting>(settings, parts_); }

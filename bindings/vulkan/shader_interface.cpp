@@ -13,7 +13,7 @@ constexpr std::uint32_t kMagic = 0x07230203, kHeaderWords = 5;
 enum Op : std::uint32_t { kOpCapability = 17, kOpTypeInt = 21, kOpTypeImage = 25, kOpTypeSampledImage = 27, kOpTypeStruct = 30, kOpTypePointer = 32, kOpVariable = 59, kOpDecorate = 71, kOpMemberDecorate = 72, kOpTypeAccelerationStructureKhr = 5341 };
 enum Decoration : std::uint32_t { kSpecId = 1, kBufferBlock = 3, kNonWritable = 24, kBinding = 33, kDescriptorSet = 34 };
 enum StorageClass : std::uint32_t { kUniformConstant = 0, kUniform = 2, kStorageBuffer = 12 };
-enum Capability : std::uint32_t { kGroupNonUniformShuffle = 65, kRayQueryKhr = 4472, kAtomicFloat32AddExt = 6033 };
+enum Capability : std::uint32_t { kGroupNonUniformShuffle = 65, kRayQueryKhr = 4472, kRayTracingKhr = 4479, kAtomicFloat32AddExt = 6033 };
 constexpr std::uint32_t kDim2D = 1, kDim3D = 2, kDimBuffer = 5, kStorageImage = 2;
 
 using Words = std::span<const std::uint32_t>;
@@ -126,6 +126,7 @@ ShaderInterface shaderInterface(std::span<const std::uint32_t> words) {
     }
     shader.floatAtomics = module.capabilities.contains(kAtomicFloat32AddExt);
     shader.rayQueries = module.capabilities.contains(kRayQueryKhr);
+    shader.rayPipelines = module.capabilities.contains(kRayTracingKhr);
     shader.shuffles = module.capabilities.contains(kGroupNonUniformShuffle);
     return shader;
 }
@@ -146,6 +147,7 @@ ShaderInterface together(const ShaderInterface& a, const ShaderInterface& b) {
     sum.floatAtomics = a.floatAtomics || b.floatAtomics;
     sum.shuffles = a.shuffles || b.shuffles;
     sum.rayQueries = a.rayQueries || b.rayQueries;
+    sum.rayPipelines = a.rayPipelines || b.rayPipelines;
     return sum;
 }
 
@@ -180,6 +182,7 @@ std::vector<std::string> shaderMismatches(const Frame& frame, const FramePass& p
     }
     if (shader.floatAtomics && !features.floatAtomics) line("needs atomic additions of floats, which are not switched on");
     if (shader.rayQueries && !features.rayQueries) line("needs ray queries, which are not switched on");
+    if (shader.rayPipelines && !features.rayPipelines) line("needs ray-tracing pipelines, which are not switched on");
     if (shader.shuffles && features.subgroupSize == 0) line("needs subgroups that can shuffle");
     return lines;
 }

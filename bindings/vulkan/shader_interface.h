@@ -21,13 +21,13 @@ struct ShaderBinding {
 struct ShaderInterface {
     std::vector<ShaderBinding> bindings;      // of descriptor set 0
     std::vector<std::uint32_t> constants;     // ids of specialisation constants
-    bool floatAtomics = false, shuffles = false, rayQueries = false;  // needed of the device
+    bool floatAtomics = false, shuffles = false, rayQueries = false, rayPipelines = false;  // needed of the device
 };
 
 // Throws std::runtime_error for words that are no SPIR-V.
 ShaderInterface shaderInterface(std::span<const std::uint32_t> words);
 
-// What the two shaders of a pass that draws need together.
+// What two shaders of a pass need together.
 ShaderInterface together(const ShaderInterface& a, const ShaderInterface& b);
 
 // How the pass and its shader differ, and what the device lacks for it, a line each; empty: it may run.

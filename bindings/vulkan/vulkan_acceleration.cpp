@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "clv/plan/frame.h"
+#include "bindings/vulkan/vulkan_words.h"
 
 namespace clv {
 namespace {
@@ -40,10 +40,6 @@ vk::AccelerationStructureBuildSizesInfoKHR sizesOf(const VulkanDevice::Impl& dev
     return device.device.getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice, level.info(), level.range.primitiveCount);
 }
 
-vk::DeviceAddress addressOf(const VulkanDevice::Impl& device, vk::Buffer buffer) { return device.device.getBufferAddressKHR({buffer}); }
-
-vk::DeviceSize rounded(vk::DeviceSize bytes, vk::DeviceSize alignment) { return (bytes + alignment - 1) / alignment * alignment; }
-
 // What comes before is over when what follows begins to read it.
 void wait(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags stage, vk::AccessFlags written, vk::AccessFlags read) {
     commands.pipelineBarrier(stage, vk::PipelineStageFlagBits::eAccelerationStructureBuildKHR, {}, vk::MemoryBarrier(written, read), {}, {});
@@ -51,13 +47,13 @@ void wait(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags stage,
 
 }  // namespace
 
-void requireRayQueries(const VulkanDevice::Impl& device) {
-    if (device.enabled.rayQueries) return;
-    throw std::runtime_error("Vulkan: " + device.info.name + (device.info.features.rayQueries ? " has its ray queries switched off" : " has no ray queries"));
+void requireRayTracing(const VulkanDevice::Impl& device) {
+    if (device.enabled.hasRayTracing()) return;
+    throw std::runtime_error("Vulkan: " + device.info.name + (device.info.features.hasRayTracing() ? " has its ray tracing switched off" : " has no ray tracing"));
 }
 
 VulkanAccelerationSizes accelerationSizes(const VulkanDevice::Impl& device, std::uint64_t triangles) {
-    requireRayQueries(device);
+    requireRayTracing(device);
     const auto chain = device.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
     const vk::DeviceSize scratchAlignment = std::max<vk::DeviceSize>(chain.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>().minAccelerationStructureScratchOffsetAlignment, kAlignment);
     const auto bottom = sizesOf(device, triangleLevel(triangles, 0)), top = sizesOf(device, instanceLevel(0));

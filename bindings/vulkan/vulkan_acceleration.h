@@ -11,8 +11,8 @@ struct VulkanAccelerationSizes {
     vk::DeviceSize bytes = 0;                           // of it all
 };
 
-// Throws std::runtime_error with one line where they are not switched on.
-void requireRayQueries(const VulkanDevice::Impl& device);
+// Throws std::runtime_error with one line where neither ray queries nor ray-tracing pipelines are switched on.
+void requireRayTracing(const VulkanDevice::Impl& device);
 
 VulkanAccelerationSizes accelerationSizes(const VulkanDevice::Impl& device, std::uint64_t triangles);
 

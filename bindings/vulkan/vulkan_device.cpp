@@ -6,6 +6,7 @@
 
 #include "bindings/vulkan/vulkan_acceleration.h"
 #include "bindings/vulkan/vulkan_device_impl.h"
+#include "bindings/vulkan/vulkan_rays.h"
 #include "bindings/vulkan/vulkan_words.h"
 
 namespace clv {
@@ -70,16 +71,25 @@ bool hasDiamondLines(const vk::raii::PhysicalDevice& device) {
     return chain.get<vk::PhysicalDeviceLineRasterizationFeaturesEXT>().bresenhamLines;
 }
 
-// Ray queries, and what Vulkan 1.1 lacks for them.
-constexpr const char* kRayQueryExtensions[] = {
-    VK_KHR_RAY_QUERY_EXTENSION_NAME,          VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME,
-    VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME, VK_KHR_SPIRV_1_4_EXTENSION_NAME,              VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME};
+// Acceleration structures, and what Vulkan 1.1 lacks for them and for shaders that search them.
+constexpr const char* kAccelerationExtensions[] = {
+    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME,
+    VK_EXT_DESCRIPTOR_INDEXING_EXTENSION_NAME,    VK_KHR_SPIRV_1_4_EXTENSION_NAME,                VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME};
+
+bool hasAccelerations(const vk::raii::PhysicalDevice& device) {
+    if (!std::ranges::all_of(kAccelerationExtensions, [&](const char* name) { return hasExtension(device, name); })) return false;
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceBufferDeviceAddressFeatures>();
+    return chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure && chain.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress;
+}
 
 bool hasRayQueries(const vk::raii::PhysicalDevice& device) {
-    if (!std::ranges::all_of(kRayQueryExtensions, [&](const char* name) { return hasExtension(device, name); })) return false;
-    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceRayQueryFeaturesKHR, vk::PhysicalDeviceAccelerationStructureFeaturesKHR, vk::PhysicalDeviceBufferDeviceAddressFeatures>();
-    return chain.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery && chain.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
-           chain.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress;
+    if (!hasAccelerations(device) || !hasExtension(device, VK_KHR_RAY_QUERY_EXTENSION_NAME)) return false;
+    return device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceRayQueryFeaturesKHR>().get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
+}
+
+bool hasRayPipelines(const vk::raii::PhysicalDevice& device) {
+    if (!hasAccelerations(device) || !hasExtension(device, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME)) return false;
+    return device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>().rayTracingPipeline;
 }
 
 VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
@@ -97,6 +107,7 @@ VulkanFeatures featuresOf(const vk::raii::PhysicalDevice& device) {
     const bool shuffles = (subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute) && (subgroup.supportedOperations & vk::SubgroupFeatureFlagBits::eShuffle);
     features.subgroupSize = shuffles ? subgroup.subgroupSize : 0;
     features.rayQueries = hasRayQueries(device);
+    features.rayPipelines = hasRayPipelines(device);
     return features;
 }
 
@@ -112,7 +123,8 @@ FrameLimits limitsOf(const vk::raii::PhysicalDevice& device) {
             .imageSide = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight}),
             .imageLayers = limits.maxImageArrayLayers,
             .volumeSide = limits.maxImageDimension3D,
-            .colourTargets = std::min(limits.maxColorAttachments, limits.maxFragmentOutputAttachments)};
+            .colourTargets = std::min(limits.maxColorAttachments, limits.maxFragmentOutputAttachments),
+            .raySenders = hasRayPipelines(device) ? rayPropertiesOf(device).maxRayDispatchInvocationCount : FrameLimits().raySenders};
 }
 
 std::string driverOf(const vk::raii::PhysicalDevice& device) {
@@ -186,7 +198,10 @@ InjectWay defaultInject(const VulkanFeatures& features, std::uint32_t rule) {
     return wholeBricks ? InjectWay::bricks : InjectWay::bricksPlain;
 }
 
-TraceWay defaultTrace(const VulkanDeviceInfo& info) { return info.features.rayQueries && info.type != "cpu" ? TraceWay::query : TraceWay::walk; }
+TraceWay defaultTrace(const VulkanDeviceInfo& info) {
+    if (info.type == "cpu" || !info.features.hasRayTracing()) return TraceWay::walk;
+    return info.features.rayQueries ? TraceWay::query : TraceWay::pipeline;
+}
 
 VulkanDevice::Impl::Impl(const VulkanOptions& options)
     : loader(options.loader), context(loader.entry()), instance(makeInstance(context, options.validate)), physical(chooseDevice(instance, options.device)),
@@ -213,17 +228,23 @@ VulkanDevice::Impl::Impl(const VulkanOptions& options)
     lines.bresenhamLines = true;
     if (enabled.diamondLines) extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
     enabled.rayQueries = options.rayQueries && info.features.rayQueries;
+    enabled.rayPipelines = options.rayPipelines && info.features.rayPipelines;
     vk::PhysicalDeviceBufferDeviceAddressFeatures addresses(true);
     vk::PhysicalDeviceAccelerationStructureFeaturesKHR accelerations(true);
     vk::PhysicalDeviceRayQueryFeaturesKHR queries(true);
-    accelerations.pNext = &addresses, queries.pNext = &accelerations;
-    if (enabled.rayQueries) {
-        for (const char* name : kRayQueryExtensions) extensions.push_back(name);
+    vk::PhysicalDeviceRayTracingPipelineFeaturesKHR pipelines(true);
+    accelerations.pNext = &addresses;
+    if (enabled.hasRayTracing()) {
+        for (const char* name : kAccelerationExtensions) extensions.push_back(name);
     }
+    if (enabled.rayQueries) extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    if (enabled.rayPipelines) extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
     void* chain = nullptr;
     if (options.floatAtomics) chain = &atomics;
     if (enabled.diamondLines) lines.pNext = chain, chain = &lines;
-    if (enabled.rayQueries) addresses.pNext = chain, chain = &queries;
+    if (enabled.hasRayTracing()) addresses.pNext = chain, chain = &accelerations;
+    if (enabled.rayQueries) queries.pNext = chain, chain = &queries;
+    if (enabled.rayPipelines) pipelines.pNext = chain, chain = &pipelines;
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queues({}, queueFamily, 1, &priority);
     device = vk::raii::Device(physical, vk::DeviceCreateInfo({}, queues, {}, extensions, nullptr, chain));

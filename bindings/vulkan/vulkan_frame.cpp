@@ -53,7 +53,7 @@ struct VulkanFrame::Impl {
         fence = vk::raii::Fence(device.device, vk::FenceCreateInfo());
         for (const FrameStep& step : frame.steps) steps.push_back(makeStep(step, language));
         submission.reserve(steps.size() + 1);
-        clearBuffers();
+        fillBuffers();
     }
 
     void takeMemory(const Impl* lender) {
@@ -62,7 +62,7 @@ struct VulkanFrame::Impl {
         std::vector<VulkanBufferWish> wishes;
         vk::DeviceSize hostBytes = 0, largestRead = 0;
         for (const FrameBuffer& buffer : frame.buffers) {
-            if (buffer.isAcceleration()) requireRayQueries(device);
+            if (buffer.isAcceleration()) requireRayTracing(device);
             VulkanBufferWish wish{.bytes = buffer.bytes, .usage = copied, .image = buffer.image, .imageUsage = copiedImage};
             if (buffer.readBack) wish.use = VulkanMemoryUse::download, largestRead = std::max(largestRead, wish.bytes);
             uploads.push_back({hostBytes, 0});
@@ -190,13 +190,17 @@ struct VulkanFrame::Impl {
         changeLayout(i, vk::ImageLayout::eTransferSrcOptimal, vk::ImageLayout::eGeneral);
     }
 
-    void clearBuffers() {
+    // What passes find before the first run.
+    void fillBuffers() {
         recordTransfer([&] {
             for (std::size_t i = 0; i < buffers.size(); ++i) {
                 if (frame.buffers[i].isImage()) changeLayout(i, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral);
             }
             for (std::size_t i = 0; i < buffers.size(); ++i) {
                 if (frame.buffers[i].source == FrameSource::zero) recordClear(transfer, frame.buffers[i], buffers[i]);
+            }
+            for (const Step& step : steps) {
+                for (const VulkanPass& pass : step.passes) recordShaderTable(transfer, pass.rays);
             }
         });
         submitAndWait();

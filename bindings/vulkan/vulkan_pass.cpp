@@ -17,6 +17,19 @@ vk::ImageViewType viewType(FrameShape shape) {
     }
 }
 
+// Of each of frameShaders(pass).
+std::vector<vk::ShaderStageFlagBits> stagesOf(const FramePass& pass) {
+    using Stage = vk::ShaderStageFlagBits;
+    if (pass.draws()) return {Stage::eVertex, Stage::eFragment};
+    if (pass.sendsRays()) return {Stage::eRaygenKHR, Stage::eMissKHR, Stage::eClosestHitKHR};
+    return {Stage::eCompute};
+}
+
+vk::PipelineBindPoint bindPointOf(const FramePass& pass) {
+    if (pass.sendsRays()) return vk::PipelineBindPoint::eRayTracingKHR;
+    return pass.draws() ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;
+}
+
 // A pass's shaders, its constants among them.
 struct Stages {
     std::vector<vk::raii::ShaderModule> modules;
@@ -31,17 +44,21 @@ struct Stages {
             values.push_back(constant.value);
         }
         specialisation.setMapEntries(entries).setData<std::uint32_t>(values);
-        ShaderInterface needs;
         const std::vector<std::string> names = frameShaders(pass);
-        for (const std::string& name : names) {
-            vk::ShaderStageFlagBits stage = vk::ShaderStageFlagBits::eCompute;
-            if (pass.draws()) stage = name == names.front() ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment;
-            const auto words = shaderCode(name, language);
-            needs = together(needs, shaderInterface(words));
-            modules.emplace_back(device.device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
-            infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stage, *modules.back(), "main", &specialisation);
-        }
+        const std::vector<vk::ShaderStageFlagBits> stages = stagesOf(pass);
+        ShaderInterface needs;
+        for (const std::string& name : names) needs = together(needs, shaderInterface(shaderCode(name, language)));
         throwFirst(shaderMismatches(frame, pass, needs, device.enabled));
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto words = shaderCode(names[i], language);
+            modules.emplace_back(device.device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
+            infos.emplace_back(vk::PipelineShaderStageCreateFlags{}, stages[i], *modules.back(), "main", &specialisation);
+        }
+    }
+    vk::ShaderStageFlags flags() const {
+        vk::ShaderStageFlags all;
+        for (const auto& info : infos) all |= info.stage;
+        return all;
     }
 };
 
@@ -96,10 +113,9 @@ VulkanPass makePass(const VulkanDevice::Impl& device, const Frame& frame, const 
     VulkanPass made;
     if (pass.shader.empty()) return made;
     const Stages stages(device, frame, pass, language);
-    const vk::ShaderStageFlags visible = pass.draws() ? drawConstants().stageFlags : vk::ShaderStageFlagBits::eCompute;
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const FrameUse& use : pass.uses) {
-        if (frameBinds(use)) bindings.emplace_back(frame.buffers[use.buffer].binding, descriptorType(use.binding), 1, visible);
+        if (frameBinds(use)) bindings.emplace_back(frame.buffers[use.buffer].binding, descriptorType(use.binding), 1, stages.flags());
     }
     made.setLayout = vk::raii::DescriptorSetLayout(device.device, {{}, bindings});
     vk::PipelineLayoutCreateInfo layout({}, *made.setLayout);
@@ -109,6 +125,9 @@ VulkanPass makePass(const VulkanDevice::Impl& device, const Frame& frame, const 
     if (pass.draws()) {
         made.raster = makeRaster(device, frame, pass, buffers);
         made.pipeline = makeRasterPipeline(device, frame, pass, made.raster, stages.infos, *made.layout);
+    } else if (pass.sendsRays()) {
+        made.pipeline = makeRayPipeline(device, stages.infos, *made.layout);
+        made.rays = makeShaderTable(device, made.pipeline);
     } else {
         made.pipeline = vk::raii::Pipeline(device.device, nullptr, vk::ComputePipelineCreateInfo({}, stages.infos.front(), *made.layout));
     }
@@ -136,10 +155,11 @@ void recordPass(const VulkanDevice::Impl& device, const vk::raii::CommandBuffer&
         return recordBuild(device, commands, frame.buffers[pass.uses[1].buffer].triangles, buffers[pass.uses[0].buffer].buffer, structure.buffer, structure.owner->acceleration);
     }
     if (pass.shader.empty()) return recordClear(commands, frame.buffers[pass.uses[0].buffer], buffers[pass.uses[0].buffer]);
-    const vk::PipelineBindPoint point = pass.draws() ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;
+    const vk::PipelineBindPoint point = bindPointOf(pass);
     commands.bindPipeline(point, *made.pipeline);
     commands.bindDescriptorSets(point, *made.layout, 0, *made.set, {});
     if (pass.draws()) return recordDraws(commands, pass, made.raster, *made.layout, buffers);
+    if (pass.sendsRays()) return recordRays(commands, pass, made.rays);
     commands.dispatch(pass.groups.x, pass.groups.y, pass.groups.z);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bindings/vulkan/vulkan_raster.h"
+#include "bindings/vulkan/vulkan_rays.h"
 #include "shaders/shader_code.h"
 
 namespace clv {
@@ -15,7 +16,8 @@ struct VulkanPass {
     std::vector<vk::raii::BufferView> views;
     std::vector<vk::raii::ImageView> imageViews;
     vk::raii::DescriptorSet set = nullptr;
-    VulkanRaster raster;  // of a pass that draws
+    VulkanRaster raster;    // of a pass that draws
+    VulkanShaderTable rays; // of a pass that sends rays
 };
 
 // Descriptors of all passes; null where no pass has any.

@@ -47,9 +47,14 @@ vk::ImageAspectFlags imageAspect(const FrameImage& image) {
     return image.format == FrameFormat::depth32Float ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
 }
 
+vk::DeviceAddress addressOf(const VulkanDevice::Impl& device, vk::Buffer buffer) { return device.device.getBufferAddressKHR({buffer}); }
+
+vk::DeviceSize rounded(vk::DeviceSize bytes, vk::DeviceSize alignment) { return (bytes + alignment - 1) / alignment * alignment; }
+
 vk::PipelineStageFlags stageOf(const FramePass& pass) {
     if (pass.builds()) return vk::PipelineStageFlagBits::eAccelerationStructureBuildKHR | vk::PipelineStageFlagBits::eTransfer;
     if (pass.shader.empty()) return vk::PipelineStageFlagBits::eTransfer;
+    if (pass.sendsRays()) return vk::PipelineStageFlagBits::eRayTracingShaderKHR;
     return pass.draws() ? vk::PipelineStageFlagBits::eAllGraphics : vk::PipelineStageFlagBits::eComputeShader;
 }
 

@@ -11,6 +11,10 @@ vk::BufferUsageFlags bufferUsage(FrameBinding binding);
 vk::ImageUsageFlags imageUsage(const FrameImage& image, FrameBinding binding);
 vk::ImageAspectFlags imageAspect(const FrameImage& image);
 
+vk::DeviceAddress addressOf(const VulkanDevice::Impl& device, vk::Buffer buffer);
+// The next multiple of the alignment.
+vk::DeviceSize rounded(vk::DeviceSize bytes, vk::DeviceSize alignment);
+
 // Stages in which the pass touches anything.
 vk::PipelineStageFlags stageOf(const FramePass& pass);
 // How the pass touches the buffer or image.

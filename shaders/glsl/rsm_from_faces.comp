@@ -8,4 +8,5 @@
 #include "triangles.glsl"
 #include "surface.glsl"
 #include "drawn_texel.glsl"
+#include "work_group.glsl"
 #include "rsm.glsl"

@@ -7,4 +7,5 @@
 #include "textured_surface.glsl"
 #include "scene.glsl"
 #include "traced_texel.glsl"
+#include "work_group.glsl"
 #include "rsm.glsl"

@@ -4,4 +4,5 @@
 #include "clv/data/frame.h"
 #include "clv/data/ray.h"
 #include "bvh.glsl"
+#include "work_group.glsl"
 #include "trace.glsl"

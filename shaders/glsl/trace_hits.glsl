@@ -1,11 +1,11 @@
-// Body of trace_hits and trace_hits_textured: cuts a ray at the first triangle that it meets, and says what that is.
-layout(local_size_x = CLV_GROUP_SIZE) in;
+// Body of trace_hits and trace_hits_textured: cuts a ray at the first triangle that it meets, and says what that is. The entry point
+// includes before: work_group.glsl or launch.glsl, and scene.glsl.
 layout(std140, binding = CLV_BIND_FRAME) uniform FrameBlock { ClvFrame frame; };
 layout(std430, binding = CLV_BIND_RAYS) buffer Rays { ClvRay rays[]; };
 layout(std430, binding = CLV_BIND_HITS) writeonly buffer Hits { ClvHit hits[]; };
 
 void main() {
-    uint i = clvItem(gl_GlobalInvocationID);
+    uint i = itemNumber();
     if (i >= frame.rayCount) return;
     ClvRay ray = rays[i];
     ClvHit hit = sceneHit(ray);

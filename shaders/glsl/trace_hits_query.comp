@@ -7,4 +7,5 @@
 #include "query.glsl"
 #include "surface.glsl"
 #include "scene.glsl"
+#include "work_group.glsl"
 #include "trace_hits.glsl"

@@ -6,4 +6,5 @@
 #include "bvh.glsl"
 #include "textured_surface.glsl"
 #include "scene.glsl"
+#include "work_group.glsl"
 #include "trace_hits.glsl"

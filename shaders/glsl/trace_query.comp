@@ -5,4 +5,5 @@
 #include "clv/data/frame.h"
 #include "clv/data/ray.h"
 #include "query.glsl"
+#include "work_group.glsl"
 #include "trace.glsl"

@@ -21,7 +21,7 @@ TEST(Info, listsTheVulkanDevicesAndTheirPaths) {
     EXPECT_EQ(report.at("backends"), Json({"cpu", "vulkan"}));
     ASSERT_FALSE(report.at("vulkan_devices").empty()) << "these tests need a Vulkan device, mesa-vulkan-drivers for one";
     const std::set<std::string> types{"discrete", "integrated", "virtual", "cpu", "other"}, ways{"bricks", "bricks without subgroups", "float atomics", "fixed point"},
-        traces{"bvh in compute", "ray queries in compute"};
+        traces{"bvh in compute", "ray queries in compute", "ray-tracing pipelines"};
     std::size_t index = 0;
     for (const Json& device : report["vulkan_devices"]) {
         EXPECT_EQ(device.at("index"), index++);

@@ -78,7 +78,7 @@ std::string resolve(const std::string& file, const std::string& name) {
 }
 
 bool isSource(const std::string& file) {
-    static const std::set<std::string> endings{".h", ".hpp", ".c", ".cpp", ".glsl", ".comp", ".vert", ".frag", ".rgen", ".hlsl"};
+    static const std::set<std::string> endings{".h", ".hpp", ".c", ".cpp", ".glsl", ".comp", ".vert", ".frag", ".rgen", ".rmiss", ".rchit", ".hlsl"};
     return endings.contains(fs::path(file).extension().string());
 }
 

@@ -179,6 +179,39 @@ TEST(Building, needsCornersAndAStructure) {
     expect([](Frame& f, auto&) { f.buffers[1].readBack = true; }, "structure is not built by a pass, or is read as data");
 }
 
+// The same, searched by rays that a pipeline sends.
+Frame sendingFrame() {
+    Frame frame = buildingFrame();
+    frame.steps[0].passes[1].rays = {"none", "nearest"};
+    frame.steps[0].passes[1].groups = uvec3(3, 2, 1);
+    return frame;
+}
+
+TEST(SendingRays, takesThreeShadersAndAnInvocationAThread) {
+    const Frame frame = sendingFrame();
+    const FramePass& pass = frame.steps[0].passes[1];
+    EXPECT_TRUE(pass.sendsRays());
+    EXPECT_FALSE(frame.steps[0].passes[0].sendsRays());
+    EXPECT_EQ(frameShaders(pass), (std::vector<std::string>{"search.rgen", "none.rmiss", "nearest.rchit"}));
+    EXPECT_EQ(frameThreads(pass), uvec3(3 * CLV_GROUP_SIZE, 2, 1));
+    EXPECT_EQ(checkFrame(frame, {.raySenders = 6 * CLV_GROUP_SIZE}), std::vector<std::string>());
+}
+
+TEST(SendingRays, needsAStructureAndSomebodyWhoAnswers) {
+    const auto expect = [](const std::function<void(Frame&, FramePass&)>& breakIt, const std::string& words, const FrameLimits& limits = {}) {
+        Frame frame = sendingFrame();
+        breakIt(frame, frame.steps[0].passes[1]);
+        const std::vector<std::string> faults = checkFrame(frame, limits);
+        EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [&](const std::string& fault) { return fault.find(words) != std::string::npos; })) << words;
+    };
+    expect([](Frame&, FramePass& pass) { pass.rays.miss.clear(); }, "search sends rays and names no shader for those that miss");
+    expect([](Frame&, FramePass& pass) { pass.rays.hit.clear(); }, "search sends rays and names no shader for those that hit");
+    expect([](Frame&, FramePass& pass) { pass.uses.erase(pass.uses.begin()); }, "search sends rays and reads no acceleration structure");
+    expect([](Frame&, FramePass& pass) { pass.raster = {FrameTopology::lines, 2}; }, "search sends rays and draws");
+    expect([](Frame&, FramePass& pass) { pass.shader.clear(); }, "search sends rays and has no shader that does");
+    expect([](Frame&, FramePass&) {}, "search sends rays from 384 invocations, more than 383", {.raySenders = 383});
+}
+
 TEST(Building, takesCornersInTheOrderOfTheTriangles) {
     const std::vector<vec4> rows{vec4(1, 2, 3, 7), vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(4, 5, 6, 8), vec4(0, 0, 2, 0), vec4(3, 0, 0, 0)};
     const std::vector<vec3> two{vec3(1, 2, 3), vec3(2, 2, 3), vec3(1, 3, 3), vec3(4, 5, 6), vec3(4, 5, 8), vec3(7, 5, 6)};

@@ -101,12 +101,12 @@ TEST(LightFrame, drawsItsMapsWhereItHasFaces) {
     }
 }
 
-// Ray queries need what a step of its own has built, and no tree.
-TEST(LightFrame, buildsWhatItsRayQueriesSearch) {
+// Ray tracing needs what a step of its own has built, and no tree.
+TEST(LightFrame, buildsWhatItsRayTracingSearches) {
     LightFrameSettings settings = smallSettings();
-    settings.trace = TraceWay::query, settings.accelerationBytes = 5120;
-    for (const bool keepHits : {false, true}) {
-        settings.keepHits = keepHits;
+    settings.accelerationBytes = 5120;
+    for (const auto& [way, keepHits] : {std::pair{TraceWay::query, false}, {TraceWay::query, true}, {TraceWay::pipeline, false}, {TraceWay::pipeline, true}}) {
+        settings.trace = way, settings.keepHits = keepHits;
         const Frame frame = lightFrame(settings);
         EXPECT_EQ(checkFrame(frame), std::vector<std::string>());
         EXPECT_EQ(passesOf(frame, "scene"), std::vector<std::string>{"build"});

@@ -25,10 +25,10 @@ inline void* allocate(std::size_t size, std::size_t alignment) {
 
 }  // namespace clv::test
 
-void* operator new(std::size_t size) { return clv::test::allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return clv::test::allocate(size, std::size_t(alignment)); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return clv::test::tryAllocate(size, alignof(std::max_align_t)); }
-// Not inlined: where the compiler sees free() alone, it takes it for a mismatch with operator new.
+// Not inlined: where the compiler sees the half of a pair alone, it takes it for a mismatch with the other.
+[[gnu::noinline]] void* operator new(std::size_t size) { return clv::test::allocate(size, alignof(std::max_align_t)); }
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) { return clv::test::allocate(size, std::size_t(alignment)); }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return clv::test::tryAllocate(size, alignof(std::max_align_t)); }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }

@@ -102,21 +102,25 @@ TEST(VulkanFeatures, thatADeviceLacksAreMissedInOneLine) {
     const VulkanDevice device(watchedOptions());
     EXPECT_FALSE(device.info().features.floatAtomics);
     EXPECT_EQ(device.info().features.subgroupSize, 0u);
-    EXPECT_FALSE(device.info().features.rayQueries);
+    EXPECT_FALSE(device.info().features.hasRayTracing());
     EXPECT_NE(device.info().driver, "");
     VulkanOptions options = watchedOptions();
-    options.rayQueries = true;
-    expectError([&] { VulkanDevice(options).accelerationBytes(1); }, " has no ray queries");
+    options.rayQueries = options.rayPipelines = true;
+    expectError([&] { VulkanDevice(options).accelerationBytes(1); }, " has no ray tracing");
     options.floatAtomics = true;
     expectNoDevice(options, "cannot add floats in buffers atomically");
     watchVulkan();
 }
 
 TEST(VulkanFeatures, haveAFallback) {
-    const auto traceOn = [](const std::string& type, bool queries) { return defaultTrace({.name = "", .driver = "", .type = type, .limits = {}, .features = {.rayQueries = queries}}); };
-    EXPECT_EQ(traceOn("discrete", true), TraceWay::query);
-    EXPECT_EQ(traceOn("discrete", false), TraceWay::walk);
-    EXPECT_EQ(traceOn("cpu", true), TraceWay::walk);
+    const auto traceOn = [](const std::string& type, bool queries, bool pipelines) {
+        return defaultTrace({.name = "", .driver = "", .type = type, .limits = {}, .features = {.rayQueries = queries, .rayPipelines = pipelines}});
+    };
+    EXPECT_EQ(traceOn("discrete", true, true), TraceWay::query);
+    EXPECT_EQ(traceOn("discrete", true, false), TraceWay::query);
+    EXPECT_EQ(traceOn("discrete", false, true), TraceWay::pipeline);
+    EXPECT_EQ(traceOn("discrete", false, false), TraceWay::walk);
+    EXPECT_EQ(traceOn("cpu", true, true), TraceWay::walk);
     EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 32}), InjectWay::bricks);
     EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 8}), InjectWay::bricks);
     EXPECT_EQ(defaultInject({.floatAtomics = true, .subgroupSize = 4}), InjectWay::bricksPlain);

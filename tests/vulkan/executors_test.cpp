@@ -77,6 +77,20 @@ TEST(Executors, ofOneDescriptionGiveTheSameBits) {
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
+TEST(Executors, sayWhatTheyLeaveOut) {
+    TracedScene traced(makeBuiltinScene("cornell"), 8, 64, false);
+    traced.settings.accelerationBytes = 4096;
+    for (const TraceWay way : {TraceWay::query, TraceWay::pipeline}) {
+        traced.settings.trace = way;
+        try {
+            SmallExecutor executor(lightFrame(traced.settings));
+            ADD_FAILURE() << "no error";
+        } catch (const std::runtime_error& error) {
+            EXPECT_EQ(error.what(), std::string("the frame has an acceleration structure, acceleration, which this executor leaves out"));
+        }
+    }
+}
+
 // A picture by all that draws: the lights' maps, the thesis' lines in slices, what the camera sees.
 struct DrawnFrame : WholeFrame {
     static constexpr uvec2 kSize{64, 40};

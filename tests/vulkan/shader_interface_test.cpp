@@ -60,6 +60,7 @@ TEST(ShaderInterface, findsWhatDoesNotMatch) {
     expectMismatch([](Frame& f, ShaderInterface&) { f.steps[0].passes[0].constants = {{CLV_SPEC_STRIDE, 8}}; }, "has no constant 3");
     expectMismatch([](Frame&, ShaderInterface& s) { s.floatAtomics = true; }, "needs atomic additions of floats");
     expectMismatch([](Frame&, ShaderInterface& s) { s.rayQueries = true; }, "needs ray queries, which are not switched on");
+    expectMismatch([](Frame&, ShaderInterface& s) { s.rayPipelines = true; }, "needs ray-tracing pipelines, which are not switched on");
     expectMismatch([](Frame&, ShaderInterface& s) { s.shuffles = true; }, "needs subgroups that can shuffle");
 }
 
@@ -101,12 +102,12 @@ TEST(ShaderInterface, putsTheShadersOfADrawTogether) {
         EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {.draws = true}).size(), 1u);
         EXPECT_EQ(shaderMismatches(drawn.frame, drawn.pass(), both, {.draws = true, .blendsFloats = true}), std::vector<std::string>());
     }
-    const ShaderInterface a{.bindings = {{3, FrameBinding::storage, false}}, .constants = {1}, .floatAtomics = true}, b{.bindings = {{3, FrameBinding::storage, true}, {4}}, .constants = {1, 2}, .shuffles = true};
+    const ShaderInterface a{.bindings = {{3, FrameBinding::storage, false}}, .constants = {1}, .floatAtomics = true}, b{.bindings = {{3, FrameBinding::storage, true}, {4}}, .constants = {1, 2}, .shuffles = true, .rayPipelines = true};
     const ShaderInterface sum = together(a, b);
     EXPECT_EQ(sum.bindings.size(), 2u);
     EXPECT_TRUE(sum.bindings[0].writable);
     EXPECT_EQ(sum.constants, (std::vector<std::uint32_t>{1, 2}));
-    EXPECT_TRUE(sum.floatAtomics && sum.shuffles);
+    EXPECT_TRUE(sum.floatAtomics && sum.shuffles && sum.rayPipelines);
 }
 
 TEST(ShaderInterface, tellsImagesByTheirShapeAndTexels) {
@@ -129,12 +130,17 @@ TEST(ShaderInterface, tellsImagesByTheirShapeAndTexels) {
 }
 
 TEST(ShaderInterface, tellsAccelerationStructures) {
-    const ShaderInterface shader = shaderInterface(shaderCode("trace_query", ShaderLanguage::glsl));
-    EXPECT_TRUE(shader.rayQueries);
-    const auto structure = std::find_if(shader.bindings.begin(), shader.bindings.end(), [](const ShaderBinding& b) { return b.number == CLV_BIND_ACCELERATION; });
-    ASSERT_NE(structure, shader.bindings.end());
-    EXPECT_EQ(structure->kind, FrameBinding::acceleration);
-    EXPECT_FALSE(structure->writable);
+    for (const std::string_view name : {"trace_query", "trace.rgen"}) {
+        const ShaderInterface shader = shaderInterface(shaderCode(name, ShaderLanguage::glsl));
+        EXPECT_EQ(shader.rayQueries, name == "trace_query");
+        EXPECT_EQ(shader.rayPipelines, name == "trace.rgen");
+        const auto structure = std::find_if(shader.bindings.begin(), shader.bindings.end(), [](const ShaderBinding& b) { return b.number == CLV_BIND_ACCELERATION; });
+        ASSERT_NE(structure, shader.bindings.end());
+        EXPECT_EQ(structure->kind, FrameBinding::acceleration);
+        EXPECT_FALSE(structure->writable);
+    }
+    // What answers a ray binds nothing.
+    for (const std::string_view name : {"nearest.rmiss", "nearest.rchit"}) EXPECT_TRUE(shaderInterface(shaderCode(name, ShaderLanguage::glsl)).bindings.empty());
 }
 
 TEST(ShaderInterface, refusesWhatIsNoSpirv) {
@@ -149,7 +155,7 @@ TEST(ShaderInterface, refusesWhatIsNoSpirv) {
 TEST(ShaderInterface, isTheSameInBothLanguages) {
     int compared = 0;
     for (const ShaderCode& glsl : shaderCodes()) {
-        if (glsl.language != ShaderLanguage::glsl || shaderInterface(glsl.words).rayQueries) continue;
+        if (glsl.language != ShaderLanguage::glsl || shaderInterface(glsl.words).rayQueries || shaderInterface(glsl.words).rayPipelines) continue;
         ShaderInterface a = shaderInterface(glsl.words), b = shaderInterface(shaderCode(glsl.name, ShaderLanguage::hlsl));
         for (ShaderInterface* shader : {&a, &b}) {
             std::sort(shader->bindings.begin(), shader->bindings.end(), [](const auto& x, const auto& y) { return x.number < y.number; });

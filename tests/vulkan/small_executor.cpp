@@ -38,6 +38,9 @@ VkFormat formatOf(FrameFormat format) {
 }
 
 SmallExecutor::SmallExecutor(const Frame& frame, bool floatAtomics) : frame_(frame) {
+    for (const FrameBuffer& buffer : frame_.buffers) {
+        if (buffer.isAcceleration()) throw std::runtime_error("the frame has an acceleration structure, " + buffer.name + ", which this executor leaves out");
+    }
     openDevice(floatAtomics);
     for (const FrameBuffer& buffer : frame_.buffers) buffers_.push_back(buffer.isImage() ? makeImage(buffer) : makeBuffer(buffer));
     layOutImages();

@@ -89,21 +89,20 @@ TEST(VulkanTrace, framesWithoutTexturesBindNone) {
     EXPECT_TRUE(bindsTextures(lightFrame(settings)));
 }
 
-// Ray queries find the triangles that the walk finds, in what the device has built of them; it must have queries, as not all have.
-TEST(VulkanTrace, queriesFindWhatTheWalkFinds) {
-    if (!VulkanDevice().info().features.rayQueries) GTEST_SKIP() << "this device has no ray queries";
+// The device finds the triangles that the walk finds, in what it has built of them.
+void expectWhatTheWalkFinds(TraceWay way) {
     for (const bool keepHits : {false, true}) {
         for (const char* name : {"cornell", "two_rooms", "atrium", "painted"}) {
             SCOPED_TRACE(name);
             TracedScene traced(name == std::string("painted") ? paintedCornell() : makeBuiltinScene(name), kSide, kRays, keepHits);
             const TracedScene::Results walked = traced.run(ShaderLanguage::glsl);
-            traced.traceByQueries();
-            const TracedScene::Results queried = traced.run(ShaderLanguage::glsl);
+            traced.traceBy(way);
+            const TracedScene::Results found = traced.run(ShaderLanguage::glsl);
             // Rays through an edge may meet either of two triangles, or pass between them in one of the two.
             std::size_t texels = 0, rays = 0, hits = 0;
-            for (std::size_t i = 0; i < walked.texels.size(); ++i) texels += std::memcmp(&walked.texels[i], &queried.texels[i], sizeof(ClvRsmTexel)) != 0;
-            for (std::size_t i = 0; i < walked.rays.size(); ++i) rays += walked.rays[i].maxDistance != queried.rays[i].maxDistance;
-            for (std::size_t i = 0; i < walked.hits.size(); ++i) hits += std::memcmp(&walked.hits[i], &queried.hits[i], sizeof(ClvHit)) != 0;
+            for (std::size_t i = 0; i < walked.texels.size(); ++i) texels += std::memcmp(&walked.texels[i], &found.texels[i], sizeof(ClvRsmTexel)) != 0;
+            for (std::size_t i = 0; i < walked.rays.size(); ++i) rays += walked.rays[i].maxDistance != found.rays[i].maxDistance;
+            for (std::size_t i = 0; i < walked.hits.size(); ++i) hits += std::memcmp(&walked.hits[i], &found.hits[i], sizeof(ClvHit)) != 0;
             EXPECT_EQ(texels, 0u);
             EXPECT_EQ(rays, 0u);
             EXPECT_EQ(hits, 0u);
@@ -112,17 +111,40 @@ TEST(VulkanTrace, queriesFindWhatTheWalkFinds) {
     }
 }
 
-TEST(VulkanTrace, queriesAreRefusedWhereTheyAreNotSwitchedOn) {
+TEST(VulkanTrace, queriesFindWhatTheWalkFinds) {
+    if (!VulkanDevice().info().features.rayQueries) GTEST_SKIP() << "this device has no ray queries";
+    expectWhatTheWalkFinds(TraceWay::query);
+}
+
+TEST(VulkanTrace, pipelinesFindWhatTheWalkFinds) {
+    if (!VulkanDevice().info().features.rayPipelines) GTEST_SKIP() << "this device has no ray-tracing pipelines";
+    expectWhatTheWalkFinds(TraceWay::pipeline);
+}
+
+// Expects that the device refuses frames that trace by that way, in one line that holds the words.
+void expectRefusal(const VulkanOptions& options, TraceWay way, const std::string& words) {
     LightFrameSettings settings = TracedScene(makeBuiltinScene("cornell"), kSide, kRays, false).settings;
-    settings.trace = TraceWay::query, settings.accelerationBytes = 1 << 20;
-    VulkanDevice device({.validate = true});
+    settings.trace = way, settings.accelerationBytes = 1 << 20;
+    VulkanDevice device(options);
     try {
         VulkanFrame frame(device, lightFrame(settings));
         ADD_FAILURE() << "no error";
     } catch (const std::runtime_error& error) {
-        EXPECT_NE(std::string(error.what()).find(" ray queries"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
     EXPECT_EQ(device.messages(), std::vector<std::string>());
+}
+
+TEST(VulkanTrace, rayTracingIsRefusedWhereItIsNotSwitchedOn) {
+    for (const TraceWay way : {TraceWay::query, TraceWay::pipeline}) expectRefusal({.validate = true}, way, " ray tracing");
+}
+
+// Many devices of data centres have pipelines alone.
+TEST(VulkanTrace, oneWayToTraceDoesNotSwitchOnTheOther) {
+    const VulkanFeatures features = VulkanDevice().info().features;
+    if (!features.rayQueries || !features.rayPipelines) GTEST_SKIP() << "this device has not both";
+    expectRefusal({.rayPipelines = true, .validate = true}, TraceWay::query, "needs ray queries, which are not switched on");
+    expectRefusal({.rayQueries = true, .validate = true}, TraceWay::pipeline, "needs ray-tracing pipelines, which are not switched on");
 }
 
 TEST(VulkanTrace, deadRaysStayDead) {

@@ -24,7 +24,7 @@ struct TracedScene {
     ClvFrame constants{};
     LightFrameSettings settings;
     std::optional<RayGuide> guide;
-    VulkanDevice device{{.device = "", .floatAtomics = true, .rayQueries = true, .validate = true}};
+    VulkanDevice device{{.device = "", .floatAtomics = true, .rayQueries = true, .rayPipelines = true, .validate = true}};
 
     TracedScene(Scene source, std::uint32_t side, std::uint32_t rays, bool keepHits)
         : scene(std::move(source)), embree(scene), bvh(buildBvh(scene)), rows(surfaceRowsOf(scene)) {
@@ -49,9 +49,9 @@ struct TracedScene {
         settings.faceSide = constants.faceSide = faceSide;
     }
 
-    // Rays find triangles by the device's ray queries.
-    void traceByQueries() {
-        settings.trace = TraceWay::query;
+    // Rays find triangles in the device's acceleration structure.
+    void traceBy(TraceWay way) {
+        settings.trace = way;
         settings.accelerationBytes = device.accelerationBytes(settings.triangles);
     }
 

@@ -76,7 +76,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     all.push_back(all[0]), all.back().emitters = 16;
     vary([](LightFrameSettings& s, std::uint64_t texels) { s.textureTexels = texels; }, 0, 16);
     vary([](LightFrameSettings& s, std::uint32_t faces) { s.mapFaces = faces, s.faceSide = 8; }, 0, 3);
-    vary([](LightFrameSettings& s, TraceWay trace) { s.trace = trace, s.accelerationBytes = 4096; }, TraceWay::walk, TraceWay::query);
+    vary([](LightFrameSettings& s, TraceWay trace) { s.trace = trace, s.accelerationBytes = 4096; }, TraceWay::walk, TraceWay::query, TraceWay::pipeline);
     vary([](LightFrameSettings& s, bool keepHits) { s.keepHits = keepHits; }, false, true);
     vary([](LightFrameSettings& s, std::uint64_t receivers) { s.receivers = receivers; }, 0, 10);
     vary([](LightFrameSettings& s, std::uint32_t halves) { s.halves = halves; }, 1, 2);
@@ -91,7 +91,7 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     vary([](LightFrameSettings& s, const std::vector<LightFrameLevel>& levels) { s.levels = levels; },
          std::vector{levelOf({8, 8, 8, 8, 8})}, std::vector{levelOf({2, 3, 4, 5, 6}), levelOf({0, 0, 8, 8, 8})});
 
-    const VulkanFeatures features{.floatAtomics = true, .subgroupSize = 8, .rayQueries = true, .draws = true, .blendsFloats = true};
+    const VulkanFeatures features{.floatAtomics = true, .subgroupSize = 8, .rayQueries = true, .rayPipelines = true, .draws = true, .blendsFloats = true};
     std::map<std::pair<std::string, ShaderLanguage>, ShaderInterface> shaders;
     for (const ShaderCode& code : shaderCodes()) shaders[{std::string(code.name), code.language}] = shaderInterface(code.words);
     std::set<std::string> used;
@@ -101,8 +101,8 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
             for (const FramePass& pass : step.passes) {
                 if (pass.shader.empty()) continue;
                 for (const ShaderLanguage language : kLanguages) {
-                    // HLSL as it is compiled here knows no ray queries.
-                    if (language == ShaderLanguage::hlsl && pass.shader.ends_with("_query")) continue;
+                    // HLSL as it is compiled here traces no rays.
+                    if (language == ShaderLanguage::hlsl && (pass.sendsRays() || pass.shader.ends_with("_query"))) continue;
                     ShaderInterface needs;
                     for (const std::string& name : frameShaders(pass)) {
                         used.insert(name);

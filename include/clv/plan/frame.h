@@ -40,7 +40,7 @@ struct FrameBuffer {
     FrameSource source = FrameSource::passes;  // images are never the host's
     bool readBack = false;      // the host reads it between frames
     FrameImage image{};
-    std::uint64_t triangles = 0;  // of an acceleration structure for ray queries, which a pass builds
+    std::uint64_t triangles = 0;  // of an acceleration structure, which a pass builds
 
     bool isImage() const { return image.format != FrameFormat::none; }
     bool isAcceleration() const { return triangles > 0; }
@@ -54,7 +54,7 @@ enum class FrameBinding {
     image,      // read texel by texel, without a filter
     target,     // drawn into: colours in the order of the fragment shader's outputs, and at most one image of depths
     arguments,  // how much each draw draws: see FrameRaster
-    acceleration,  // an acceleration structure: read by ray queries, written by the pass that builds it
+    acceleration,  // an acceleration structure: read by ray tracing, written by the pass that builds it
     corners,       // what an acceleration structure is built from: kFrameCornerBytes a triangle
 };
 
@@ -95,6 +95,12 @@ struct FrameRaster {
     std::uint32_t vertices = 0;                    // of each draw; 0: by the record of the layer in the buffer of arguments
 };
 
+// How a pass sends rays by a ray-tracing pipeline: an invocation of its ray generation shader for each thread of its work groups, side by
+// side in x and y. There is one miss and one closest-hit shader, number 0 of each, and rays send no further rays.
+struct FrameRayShaders {
+    std::string miss, hit;  // names of their files without the ending; empty: the pass sends none
+};
+
 // Three corners of three floats, m.
 inline constexpr std::uint64_t kFrameCornerBytes = 36;
 
@@ -111,8 +117,10 @@ struct FramePass {
     uvec3 groups{1, 1, 1};                 // work groups
     std::vector<FrameBarrier> barriers;    // see addBarriers
     FrameRaster raster{};                  // draws use the vertex and the fragment shader of the name
+    FrameRayShaders rays{};                // the ray generation shader of the name sends them
 
     bool draws() const { return raster.topology != FrameTopology::none; }
+    bool sendsRays() const { return !rays.miss.empty() || !rays.hit.empty(); }
     // An acceleration structure: one level of opaque triangles, in the order of their corners, and one instance of it, as it is.
     bool builds() const { return shader.empty() && uses.size() == 2; }
 };
@@ -159,9 +167,11 @@ inline FrameBuffer frameImage(const std::string& name, std::uint32_t binding, co
 inline bool frameReads(FrameAccess access) { return access != FrameAccess::write; }
 inline bool frameWrites(FrameAccess access) { return access != FrameAccess::read; }
 
-// Names of the pass's shaders: the vertex and the fragment shader of one that draws, none of one that clears or builds.
+// Names of the pass's shaders: the vertex and the fragment shader of one that draws; ray generation, miss and closest hit of one that
+// sends rays; none of one that clears or builds.
 inline std::vector<std::string> frameShaders(const FramePass& pass) {
     if (pass.draws()) return {pass.shader + ".vert", pass.shader + ".frag"};
+    if (pass.sendsRays()) return {pass.shader + ".rgen", pass.rays.miss + ".rmiss", pass.rays.hit + ".rchit"};
     return pass.shader.empty() ? std::vector<std::string>() : std::vector{pass.shader};
 }
 
@@ -176,6 +186,9 @@ inline std::uint32_t frameLayers(const Frame& frame, const FramePass& pass) {
     }
     return layers;
 }
+
+// Threads of all the pass's work groups, along each axis.
+inline uvec3 frameThreads(const FramePass& pass) { return pass.groups * uvec3(CLV_GROUP_SIZE, 1, 1); }
 
 // Work groups that cover `items` with CLV_GROUP_SIZE threads each, in rows; see clvItem.
 inline uvec3 groupsFor(std::uint64_t items) {

@@ -19,6 +19,7 @@ struct FrameLimits {
     std::uint32_t imageLayers = 256;                      // of an array
     std::uint32_t volumeSide = 2048;                      // texels of a 3D image
     std::uint32_t colourTargets = 8;                      // of a pass
+    std::uint64_t raySenders = std::uint64_t(1) << 30;    // invocations of a pass that sends rays
 };
 
 namespace detail {
@@ -101,6 +102,18 @@ private:
         }
         if (storage > limits_.storageBuffers) fault("pass " + pass.name + " has " + std::to_string(storage) + " storage buffers, more than " + std::to_string(limits_.storageBuffers));
         checkDraws(pass);
+        if (pass.sendsRays()) checkRays(pass);
+    }
+
+    // What a pass sends rays among, and what answers.
+    void checkRays(const FramePass& pass) {
+        if (pass.rays.miss.empty() || pass.rays.hit.empty()) fault("pass " + pass.name + " sends rays and names no shader for those that " + (pass.rays.miss.empty() ? "miss" : "hit"));
+        if (pass.draws() || pass.shader.empty()) fault("pass " + pass.name + " sends rays and " + (pass.draws() ? "draws" : "has no shader that does"));
+        const bool searches = std::ranges::any_of(pass.uses, [](const FrameUse& use) { return use.binding == FrameBinding::acceleration; });
+        if (!searches) fault("pass " + pass.name + " sends rays and reads no acceleration structure");
+        const uvec3 threads = frameThreads(pass);
+        const std::uint64_t senders = std::uint64_t(threads.x) * threads.y * threads.z;
+        if (senders > limits_.raySenders) fault("pass " + pass.name + " sends rays from " + std::to_string(senders) + " invocations, more than " + std::to_string(limits_.raySenders));
     }
 
     // From what, and for how many triangles.

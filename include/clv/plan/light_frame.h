@@ -38,8 +38,9 @@ enum class InjectWay {
 
 // How rays find the nearest triangle.
 enum class TraceWay {
-    walk,   // through the tree of data/bvh.h, in the shader
-    query,  // ray queries of the graphics API in an acceleration structure of its own; GLSL alone
+    walk,      // through the tree of data/bvh.h, in the shader
+    query,     // ray queries of the graphics API in an acceleration structure of its own; GLSL alone
+    pipeline,  // ray-tracing pipelines of the graphics API in the same; GLSL alone
 };
 
 inline bool gathers(InjectWay way) { return way == InjectWay::bricks || way == InjectWay::bricksPlain; }
@@ -67,7 +68,7 @@ struct LightFrameSettings {
     std::uint64_t guideCells = 0, guideRows = 0;  // of what guides the rays; 0: nothing does
     bool movingLights = false;         // history gives way by dynamicity, not by ClvLevelFrame::weight; InjectWay::floatAtomics and fixedPoint alone
     TraceWay trace = TraceWay::walk;
-    std::uint64_t accelerationBytes = 0;  // of TraceWay::query: what the graphics API wants for an acceleration structure of the triangles
+    std::uint64_t accelerationBytes = 0;  // but of TraceWay::walk: what the graphics API wants for an acceleration structure of the triangles
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
     FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float where a device cannot add up 32 bits
@@ -187,6 +188,12 @@ private:
         frame_.steps.back().passes.back().raster = raster;
     }
 
+    // A pass that traces, by the frame's way.
+    void tracePass(const std::string& name, const std::string& shader, const uvec3& groups, Uses uses) {
+        pass(name, shader + (s_.trace == TraceWay::query ? "_query" : ""), groups, std::move(uses));
+        if (s_.trace == TraceWay::pipeline) frame_.steps.back().passes.back().rays = {"nearest", "nearest"};
+    }
+
     // The steps that end with this frame's rays, cut.
     void addRays(std::uint32_t frame, std::uint32_t rays) {
         const std::uint64_t rows = s_.emitters > 0 ? s_.emitters / s_.rsmSide : s_.lights * s_.rsmSide, texels = rows * s_.rsmSide;
@@ -194,7 +201,6 @@ private:
         const auto texelBuffer = add("texels", CLV_BIND_TEXELS, texels * sizeof(ClvRsmTexel), s_.emitters > 0 ? FrameSource::host : FrameSource::passes);
         const auto sums = add("texel sums", CLV_BIND_TEXEL_SUMS, (rows * (s_.rsmSide + 1) + rows + 1) * sizeof(float), FrameSource::passes);
         const Uses tracing = addTracing(triangles);
-        const std::string query = s_.trace == TraceWay::query ? "_query" : "";
         Uses surfaces;
         std::string textured;
         const auto bindSurfaces = [&] {
@@ -215,7 +221,7 @@ private:
         }
 
         begin("rsm");
-        if (s_.emitters == 0) addMaps(frame, texelBuffer, triangles, tracing, surfaces, textured, query);
+        if (s_.emitters == 0) addMaps(frame, texelBuffer, triangles, tracing, surfaces, textured);
         pass("texel rows", "texel_rows" + guided, groupsFor(rows * CLV_GROUP_SIZE), with({uniform(frame), read(texelBuffer), write(sums)}, guide));
         pass("texel columns", "texel_columns", uvec3(1), {uniform(frame), readWrite(sums)});
 
@@ -223,9 +229,9 @@ private:
         pass("rays", "rays" + guided, groupsFor(s_.rays), with({uniform(frame), read(texelBuffer), read(sums), write(rays)}, guide));
         if (s_.keepHits) {
             const auto hits = add("hits", CLV_BIND_HITS, s_.rays * sizeof(ClvHit), FrameSource::passes, true);
-            pass("trace", "trace_hits" + textured + query, groupsFor(s_.rays), with(with({uniform(frame), readWrite(rays), write(hits)}, tracing), surfaces));
+            tracePass("trace", "trace_hits" + textured, groupsFor(s_.rays), with(with({uniform(frame), readWrite(rays), write(hits)}, tracing), surfaces));
         } else {
-            pass("trace", "trace" + query, groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tracing));
+            tracePass("trace", "trace", groupsFor(s_.rays), with({uniform(frame), readWrite(rays)}, tracing));
         }
     }
 
@@ -245,11 +251,11 @@ private:
     }
 
     // The maps of the lights: traced, or drawn and then coloured by the surfaces that are seen.
-    void addMaps(std::uint32_t frame, std::uint32_t texels, std::uint32_t triangles, const Uses& tracing, const Uses& surfaces, const std::string& textured, const std::string& query) {
+    void addMaps(std::uint32_t frame, std::uint32_t texels, std::uint32_t triangles, const Uses& tracing, const Uses& surfaces, const std::string& textured) {
         const auto lights = add("lights", CLV_BIND_LIGHTS, s_.lights * sizeof(ClvLight), FrameSource::host);
         const uvec3 groups = groupsFor(s_.lights * s_.rsmSide * s_.rsmSide);
         if (s_.mapFaces == 0) {
-            pass("rsm", "rsm" + textured + query, groups, with(with({uniform(frame), read(lights), write(texels)}, tracing), surfaces));
+            tracePass("rsm", "rsm" + textured, groups, with(with({uniform(frame), read(lights), write(texels)}, tracing), surfaces));
             return;
         }
         const auto faces = add("map faces", CLV_BIND_MAP_FACES, s_.mapFaces * sizeof(ClvMapFace), FrameSource::host);
