@@ -64,7 +64,7 @@ void setAxis(vtkChartXY& chart, int which, const std::string& title, const Range
     axis->SetUnscaledRange(std::pow(10.0, range.lo), std::pow(10.0, range.hi));
 }
 
-void addSeries(vtkChartXY& chart, const ChartSeries& series, std::size_t index) {
+void addSeries(vtkChartXY& chart, const ChartSeries& series) {
     vtkNew<vtkDoubleArray> x, y;
     x->SetName("x");
     y->SetName("y");
@@ -82,7 +82,7 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series, std::size_t index) 
     plot->SetWidth(series.width);
     // Filled ones: viewers disagree on how lines scale in the others.
     constexpr int kMarkers[] = {vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND};
-    plot->SetMarkerStyle(series.markers ? kMarkers[index % std::size(kMarkers)] : int(vtkPlotPoints::NONE));
+    plot->SetMarkerStyle(series.markers ? kMarkers[series.marker % std::size(kMarkers)] : int(vtkPlotPoints::NONE));
     plot->SetMarkerSize(8.0f);
 }
 
@@ -108,7 +108,7 @@ std::string svgOf(const Chart& chart, int width, int height) {
     drawn->GetTitleProperties()->SetFontSize(kTitleSize);
     setAxis(*drawn, vtkAxis::BOTTOM, chart.xTitle, x);
     setAxis(*drawn, vtkAxis::LEFT, chart.yTitle, y);
-    for (std::size_t i = 0; i < chart.series.size(); ++i) addSeries(*drawn, chart.series[i], i);
+    for (const ChartSeries& series : chart.series) addSeries(*drawn, series);
     // Twice: plots learn only while they are drawn first that their axes are logarithmic.
     drawn->Update();
     vtkNew<vtkContextScene> scene;
@@ -153,6 +153,11 @@ glm::u8vec3 chartColor(std::size_t index) {
     // The first six by Okabe and Ito 2008: told apart by colour-blind eyes too.
     constexpr glm::u8vec3 kColors[] = {{213, 94, 0}, {0, 114, 178}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}, {90, 90, 90}, {148, 70, 20}, {110, 60, 180}, {120, 150, 20}, {220, 60, 90}, {0, 90, 90}, {0, 0, 0}, {160, 160, 200}};
     return kColors[index % std::size(kColors)];
+}
+
+const char* chartMarker(std::size_t index) {
+    constexpr const char* kSigns[] = {"●", "■", "◆"};
+    return kSigns[index % std::size(kSigns)];
 }
 
 }  // namespace clv

@@ -13,6 +13,7 @@ struct ChartSeries {
     glm::u8vec3 color{0};                // sRGB
     bool line = true, markers = true;
     float width = 2.0f;                  // of the line, pixels
+    std::size_t marker = 0;              // index of chartMarker
 };
 
 struct Chart {
@@ -23,7 +24,9 @@ struct Chart {
 // An <svg> element. A factor of ten is about as long on either axis, so that slopes can be read off.
 std::string svgOf(const Chart& chart, int width, int height);
 
-// Colour number `index` of a palette whose neighbours are told apart.
+// Colour number `index` of a palette whose neighbours are told apart, and the sign of marker number `index`, UTF-8. Both recur, together
+// only after dozens.
 glm::u8vec3 chartColor(std::size_t index);
+const char* chartMarker(std::size_t index);
 
 }  // namespace clv

@@ -64,7 +64,7 @@ template <class X, class Y>
 Chart curveChart(const std::vector<Curve>& curves, X&& x, Y&& y) {
     Chart chart;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        ChartSeries series{.points = {}, .color = chartColor(i)};
+        ChartSeries series{.points = {}, .color = chartColor(i), .marker = i};
         for (const Measurement* m : curves[i].points) series.points.emplace_back(x(*m), y(*m));
         chart.series.push_back(series);
     }
@@ -126,7 +126,7 @@ std::string keyOf(const std::vector<Curve>& curves, const CurveLabels& labels) {
     std::string text = "<p class=\"key\">";
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const glm::u8vec3 c = chartColor(i);
-        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">●</b> {}</span> ", c.r, c.g, c.b, escaped(labels.curve(*curves[i].points.front())));
+        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">{}</b> {}</span> ", c.r, c.g, c.b, chartMarker(i), escaped(labels.curve(*curves[i].points.front())));
     }
     return text + "</p>\n";
 }

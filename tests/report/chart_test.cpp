@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <regex>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -54,9 +55,19 @@ TEST(Chart, needsNothingFromElsewhereAndCutsNothingOff) {
     EXPECT_EQ(svg.find("href=\"http"), std::string::npos);
 }
 
+TEST(Chart, colourAndMarkerTogetherTellDozensApart) {
+    std::set<std::pair<int, std::string>> seen;
+    constexpr std::size_t kCurves = 30;
+    for (std::size_t i = 0; i < kCurves; ++i) {
+        const glm::u8vec3 c = chartColor(i);
+        seen.emplace(c.x << 16 | c.y << 8 | c.z, chartMarker(i));
+    }
+    EXPECT_EQ(seen.size(), kCurves);
+}
+
 TEST(Chart, allMarkersAreFilledShapes) {
     Chart chart;
-    for (std::size_t i = 0; i < 8; ++i) chart.series.push_back({.points = {{1.0 + double(i), 1}, {10, 10}}, .color = chartColor(i)});
+    for (std::size_t i = 0; i < 8; ++i) chart.series.push_back({.points = {{1.0 + double(i), 1}, {10, 10}}, .color = chartColor(i), .marker = i});
     const std::string svg = svgOf(chart, 640, 400);
     EXPECT_NE(svg.find("<symbol id=\"Circle\""), std::string::npos);
     for (const char* lines : {"<symbol id=\"Cross\"", "<symbol id=\"Plus\""}) EXPECT_EQ(svg.find(lines), std::string::npos);
