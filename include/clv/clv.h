@@ -72,6 +72,7 @@
 #include "plan/light_frame.h"
 #include "plan/map_faces.h"
 #include "plan/needs.h"
+#include "plan/number_check.h"
 #include "plan/triangle_corners.h"
 #include "cpu/aligned.h"
 #include "cpu/block_pool.h"

@@ -72,6 +72,91 @@ TEST(StillLightingMemory, takesNothingAfterTheFirstFrame) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(frame(), 0u) << k;
 }
 
+// Runs `work` with ever more memory until there is enough, from none at all. Returns how often there was not.
+template <class Work>
+std::size_t runOutOfMemory(Work&& work) {
+    for (std::size_t failures = 0;; ++failures) {
+        firstFailure = allocationCount() + failures + 1;
+        bool enough = true;
+        try {
+            work();
+        } catch (const std::bad_alloc&) {
+            enough = false;
+        }
+        firstFailure = std::numeric_limits<std::size_t>::max();
+        if (enough) return failures;
+    }
+}
+
+// Whether it leaks is for the address sanitizer to say.
+TEST(OutOfMemory, isSaidWhereverItHappensInAFrameAndTheNextFrameIsRight) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(4), settings.cascades.marginCells = 0, settings.cascades.finestCellSize = 3.0, settings.linesPerCell = 1;
+    settings.movingLights = true, settings.chunks = 2;
+    const ClvReceiver receiver{vec3(0.5f, -3.02f, 0.5f), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f};
+    vec3 irradiance(0.0f);
+    const auto frames = [&] {
+        MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+        for (double x : {0.0, 2.0}) {
+            lighting.moveTo(viewFrom(x, 0.0, 0.0));
+            hall.frame(lighting, 200);
+        }
+        irradiance = lighting.irradiance(receiver);
+    };
+    frames();
+    const vec3 expected = irradiance;
+    EXPECT_GT(expected.x, 0.0f);
+    EXPECT_GT(runOutOfMemory(frames), 100u);
+    EXPECT_EQ(irradiance, expected);
+}
+
+// What a failed move leaves can be moved again; that nothing is read beyond its end is for the address sanitizer to say.
+TEST(OutOfMemory, inAMoveLeavesVolumesThatCoverNothingUntilTheNext) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(4), settings.cascades.marginCells = 0, settings.cascades.finestCellSize = 3.0, settings.linesPerCell = 1;
+    settings.movingLights = true;
+    settings.slotsPerCell = 0.2f;  // so that arrays grow in the middle of a move
+    for (std::size_t left = 0;; ++left) {
+        MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+        lighting.moveTo(viewFrom(0.0, 0.0, 0.0));
+        hall.frame(lighting, 200);
+        firstFailure = allocationCount() + left + 1;
+        bool enough = true;
+        try {
+            lighting.moveTo(viewFrom(2.0, 0.0, 0.0));
+        } catch (const std::bad_alloc&) {
+            enough = false;
+        }
+        firstFailure = std::numeric_limits<std::size_t>::max();
+        for (const MovingVolume& volume : lighting.volumes()) {
+            ASSERT_EQ(volume.frames().size(), volume.level().slots.size()) << left;
+            ASSERT_EQ(volume.history().size(), volume.level().slots.size() * std::size_t(settings.layout.stride())) << left;
+        }
+        lighting.moveTo(viewFrom(6.0, 1.0, 0.0));
+        hall.frame(lighting, 200);
+        EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(6.0f, 0.0f, 0.0f), 2.0f))).x, 0.0f) << left;
+        if (enough) {
+            EXPECT_GT(left, 10u);
+            break;
+        }
+    }
+}
+
+TEST(OutOfMemory, leavesLightThatGoesOnOnceThereIsMemoryAgain) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(4), settings.cascades.marginCells = 0, settings.cascades.finestCellSize = 3.0, settings.linesPerCell = 1;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(0.0, 0.0, 0.0));
+    hall.frame(lighting, 200);
+    // More rays than there ever were.
+    std::size_t rays = 200;
+    EXPECT_GT(runOutOfMemory([&] { hall.frame(lighting, rays *= 2); }), 0u);
+    EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(0.0f), 2.0f))).x, 0.0f);
+}
+
 TEST(AllocationCount, countsAllocationsThatHappen) {
     const std::size_t before = allocationCount();
     AlignedFloats floats(100);

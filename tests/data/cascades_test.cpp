@@ -321,12 +321,12 @@ TEST(CascadeValidation, saysWhatIsWrongWithTheCascades) {
     EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(8)}), "");
     EXPECT_EQ(validate(CascadeDesc{.resolution = ivec3(32, 1000000, 32)}), "cascades: resolution must be at most 1024");
     for (double bad : {0.0, -1.0, 1e-60, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_EQ(validate(CascadeDesc{.finestCellSize = bad}), "cascades: finestCellSize must be above 0 m");
+        EXPECT_EQ(validate(CascadeDesc{.finestCellSize = bad}), "cascades: finestCellSize must be at least 1e-12 m");
     }
     for (double bad : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_EQ(validate(CascadeDesc{.growth = bad}), "cascades: growth must be at least 1");
     }
-    EXPECT_EQ(validate(CascadeDesc{.growth = 1e200}), "cascades: the coarsest cells are larger than the longest ray");
+    EXPECT_EQ(validate(CascadeDesc{.growth = 1e200}), "cascades: the coarsest cells must be at most 1e12 m");
     EXPECT_EQ(validate(CascadeDesc{.marginCells = -1}), "cascades: marginCells must not be negative");
 }
 

@@ -1,9 +1,11 @@
-// How often a test program has taken memory from the heap, by any thread. Replaces operator new: include it in one file of a program.
+// How often a test program has taken memory from the heap, by any thread; and memory that runs out. Replaces operator new: include it in one file
+// of a program.
 #ifndef CLV_TESTS_SUPPORT_ALLOCATION_COUNT_H
 #define CLV_TESTS_SUPPORT_ALLOCATION_COUNT_H
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace clv::test {
@@ -11,9 +13,12 @@ namespace clv::test {
 inline std::atomic<std::size_t> allocations{0};
 inline std::size_t allocationCount() { return allocations; }
 
+// No memory is left from this allocation on, counted as above.
+inline std::atomic<std::size_t> firstFailure{std::numeric_limits<std::size_t>::max()};
+
 // Null where there is no memory.
 inline void* tryAllocate(std::size_t size, std::size_t alignment) {
-    ++allocations;
+    if (++allocations >= firstFailure) return nullptr;
     return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
 

@@ -27,6 +27,12 @@ public:
     }
     void giveBack(uint first, uint count) { free_[count].push_back(first); }
 
+    // Takes all runs back, without asking for memory.
+    void clear() {
+        for (std::vector<uint>& runs : free_) runs.clear();
+        size_ = 0;
+    }
+
     // One above the highest index ever handed out: what an array must hold.
     std::size_t size() const { return size_; }
 

@@ -13,8 +13,15 @@ struct LookupOptions {
     uint lookup = kClvLookupLinearFit;
     bool planeCulling = true;
     bool visibility = true;   // leave out slots that the receiver's own slot does not see
-    float ridge = kClvFitRidge;
+    float ridge = kClvFitRidge;  // cells^2, [1e-6, 1e6]: its third power is a float of full precision
 };
+
+// What is wrong with the options, in words; empty if nothing is.
+inline std::string validate(const LookupOptions& options) {
+    if (options.lookup > kClvLookupLinearFit) return "lookup: it must be one of kClvLookup...";
+    if (!liesIn(options.ridge, 1e-6, 1e6)) return "lookup: ridge must lie in [1e-6, 1e6]";
+    return {};
+}
 
 // The slots that a receiver reads. E = sum of weight[i] * (record of slot[i], read for the normal).
 struct SlotWeights {

@@ -26,17 +26,12 @@ struct PacketDeposits {
     alignas(64) float dynamicity[kPacketLanes][8] = {};  // a side each: the ray's, on the sides that it lights
 };
 
-inline bool finiteRay(const ClvRay& ray) {
-    const float sum = ray.flux.x + ray.flux.y + ray.flux.z + ray.direction.x + ray.direction.y + ray.direction.z;
-    return std::abs(sum) <= 3e38f;
-}
-
 inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> rays, bool withDynamicity, PacketDeposits& out) {
     const int count = int(clvCoefficientCount(layout.storage));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ClvRay& ray = rays[i];
         float* value = out.value[i];
-        if (!finiteRay(ray)) {  // such a ray adds nothing
+        if (!clvIsFinite(ray.flux) || !clvIsFinite(ray.direction)) {  // such a ray adds nothing
             std::fill(std::begin(out.value[i]), std::end(out.value[i]), 0.0f);
             std::fill(std::begin(out.dynamicity[i]), std::end(out.dynamicity[i]), 0.0f);
             continue;

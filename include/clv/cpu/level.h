@@ -2,10 +2,12 @@
 #ifndef CLV_CPU_LEVEL_H
 #define CLV_CPU_LEVEL_H
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "../data/cell.h"
 #include "../data/light_volume.h"
+#include "../plan/number_check.h"
 #include "../stages/find_slot.h"
 
 namespace clv {
@@ -54,6 +56,18 @@ struct DepositLayout {
     // How a record is read for a normal, in the space of the volume.
     ClvCoefficients read(const vec3& normal) const { return clvReadCoefficients(storage, frame * normal); }
 };
+
+// What is wrong with the layout, in words; empty if nothing is.
+inline std::string validate(const DepositLayout& layout) {
+    if (layout.storage > kClvStorageSh2) return "deposits: storage must be one of kClvStorage...";
+    if (layout.channels != 1 && layout.channels != 3) return "deposits: channels must be 1 or 3";
+    const mat3 product = layout.frame * glm::transpose(layout.frame);
+    for (int i = 0; i < 9; ++i) {
+        const double expected = i % 4 == 0 ? 1.0 : 0.0;
+        if (!liesIn(product[i / 3][i % 3], expected - 1e-4, expected + 1e-4)) return "deposits: frame must be orthonormal";
+    }
+    return {};
+}
 
 // Number of cells along x, y and z, and their place, so that cubes of side cbrt(volume of the bounds) / n cover the bounds.
 // `shift`, [0, 1) a component, moves the grid by a fraction of a cell.

@@ -57,6 +57,18 @@ public:
         exposed_ = exposedCells(placed.resolution, moved);
     }
 
+    // Covers nothing any more, as at first; asks for no memory.
+    void forget() {
+        placed_ = {};
+        std::fill(level_.table.begin(), level_.table.end(), kClvNoSlot);
+        level_.slots.clear();
+        level_.splits.clear();
+        sketch_.inside.clear();
+        sketch_.lower.clear();
+        slotPool_.clear();
+        splitPool_.clear();
+    }
+
     // Calls visit(cell) for every cell that the last move exposed, always in the same order.
     template <class Visit>
     void forExposedCells(Visit&& visit) const {

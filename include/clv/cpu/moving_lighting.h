@@ -28,24 +28,43 @@ struct MovingLightingSettings {
     LookupOptions lookup{};
 };
 
+// More threads than that, and lines finer than that, are mistakes.
+inline constexpr int kMostChunks = 4096, kMostLinesPerCell = 64;
+// A float still tells a quarter of a cell apart this many cells from the anchor.
+inline constexpr double kMostCellsFromAnchor = 4194304.0;
+
 // What is wrong with the settings, in words; empty if nothing is.
 inline std::string validate(const MovingLightingSettings& settings) {
-    if (std::string problem = validate(settings.cascades); !problem.empty()) return problem;
-    if (!(settings.blendCells >= 0.0f && settings.blendCells < kClvFar)) return "moving light: blendCells must be finite, and not negative";
-    if (!(std::abs(settings.anchor.x) + std::abs(settings.anchor.y) + std::abs(settings.anchor.z) < HUGE_VAL)) return "moving light: anchor must be finite";
-    if (settings.chunks < 1) return "moving light: chunks must be at least 1";
-    if (settings.linesPerCell < 1) return "moving light: linesPerCell must be at least 1";
-    if (!(settings.slotsPerCell > 0.0f && settings.slotsPerCell <= float(kClvMostSlots))) {
+    for (const std::string& problem : {validate(settings.cascades), validate(settings.layout), validate(settings.lookup)}) {
+        if (!problem.empty()) return problem;
+    }
+    if (!liesIn(settings.blendCells, 0.0, kClvFar)) return "moving light: blendCells must be finite, and not negative";
+    if (!isFinite(settings.anchor.x) || !isFinite(settings.anchor.y) || !isFinite(settings.anchor.z)) return "moving light: anchor must be finite";
+    if (settings.chunks < 1 || settings.chunks > kMostChunks) return "moving light: chunks must lie in [1, " + std::to_string(kMostChunks) + "]";
+    if (settings.linesPerCell < 1 || settings.linesPerCell > kMostLinesPerCell) return "moving light: linesPerCell must lie in [1, " + std::to_string(kMostLinesPerCell) + "]";
+    if (settings.rule != kClvInjectTrackLength && settings.rule != kClvInjectThesis) return "moving light: rule must be one of kClvInject...";
+    if (!liesIn(settings.slotsPerCell, 0.0, kClvMostSlots) || settings.slotsPerCell == 0.0f) {
         return "moving light: slotsPerCell must lie in (0, " + std::to_string(kClvMostSlots) + "]";
     }
-    if (!(settings.originOffset >= 0.0f && settings.originOffset < kClvFar)) return "moving light: originOffset must be finite, and not negative";
-    if (!(settings.guessFrames >= 0.0f && settings.guessFrames < kClvFar && settings.slidOutFrames >= 0.0f && settings.slidOutFrames < kClvFar)) {
+    if (!liesIn(settings.originOffset, 0.0, kClvFar)) return "moving light: originOffset must be finite, and not negative";
+    if (!liesIn(settings.guessFrames, 0.0, kClvFar) || !liesIn(settings.slidOutFrames, 0.0, kClvFar)) {
         return "moving light: guessFrames and slidOutFrames must be finite, and not negative";
     }
-    if (!(settings.newCellDynamicity >= 0.0f && settings.newCellDynamicity <= 1.0f)) return "moving light: newCellDynamicity must lie in [0, 1]";
+    if (!liesIn(settings.newCellDynamicity, 0.0, 1.0)) return "moving light: newCellDynamicity must lie in [0, 1]";
     const ClvMergeSettings& merge = settings.merge;
-    if (!(merge.timestep > 0.0f && merge.timestep < kClvFar && merge.movingTime > 0.0f && merge.stillTime >= merge.movingTime && merge.dynamicityTime > 0.0f)) {
-        return "moving light: the times of the merge must be above 0, the timestep finite, and movingTime at most stillTime";
+    constexpr double kShortest = std::numeric_limits<float>::min();
+    if (!liesIn(merge.timestep, kShortest) || !liesIn(merge.movingTime, kShortest) || !liesIn(merge.stillTime, merge.movingTime) || !liesIn(merge.dynamicityTime, kShortest)) {
+        return "moving light: the times of the merge must be finite and above 0, and movingTime at most stillTime";
+    }
+    return {};
+}
+
+// The same for a camera, and for the two together.
+inline std::string validate(const MovingLightingSettings& settings, const CameraView& view) {
+    if (std::string problem = validate(settings); !problem.empty()) return problem;
+    if (std::string problem = validate(settings.cascades, view); !problem.empty()) return problem;
+    if (!liesIn(glm::length(view.position - settings.anchor), 0.0, kMostCellsFromAnchor * settings.cascades.finestCellSize)) {
+        return "camera: position is more than 2^22 of the finest cells away from the anchor";
     }
     return {};
 }
@@ -70,7 +89,7 @@ public:
         return sum;
     }
 
-    // The view must be valid. Coarse cascades go first, so that finer ones can ask them for what they do not know yet.
+    // The view must be valid with the settings. Coarse cascades go first, so that finer ones can ask them for what they do not know yet.
     void moveTo(const CameraView& view) {
         cascades_ = placeCascades(settings_.cascades, view, settings_.anchor, settings_.layout.storage, settings_.blendCells);
         const MovingVolume* coarser = nullptr;

@@ -52,7 +52,14 @@ public:
 
     // Goes to its new place between two frames. New cells take their first guess from `coarser`, which has moved before, or else,
     // as in Brattén and Lindén (2013), from the history that slid out of the same place in memory. `coarser`: may be null.
+    // Where memory runs out on the way, the volume covers nothing afterwards, as at first.
     void moveTo(const PlacedCascade& placed, const MovingVolume* coarser, const SceneProbe& probe, const ParallelFor& parallelFor) {
+        struct Unfinished {
+            MovingVolume* volume;
+            ~Unfinished() {
+                if (volume) volume->forget();
+            }
+        } unfinished{this};
         level_.moveTo(placed);
         keepLeaving();
         level_.fill(probe, parallelFor);
@@ -61,6 +68,7 @@ public:
         history_.resize(slots, settings_.layout, settings_.movingLights);
         frames_.resize(slots);
         seedExposed(coarser);
+        unfinished.volume = nullptr;
     }
 
     // Takes this frame's deposits into the history; `scale` turns their raw sums into an estimate.
@@ -91,6 +99,13 @@ public:
     }
 
 private:
+    void forget() {
+        level_.forget();
+        for (PartialVolume& partial : partials_) partial.resize(0, settings_.layout, settings_.movingLights);
+        history_.resize(0, settings_.layout, settings_.movingLights);
+        frames_.clear();
+    }
+
     // A first guess: how many frames it stands for, then mean coefficients, W/m^2, in the order of a record.
     static std::size_t guessStride(const MovingVolumeSettings& settings) { return 1 + std::size_t(settings.layout.stride()); }
     std::size_t guessStride() const { return guessStride(settings_); }

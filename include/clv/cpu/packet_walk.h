@@ -105,7 +105,7 @@ struct AxisWalk {
         const __m512 largest = _mm512_set1_ps(std::numeric_limits<float>::max());
         finite = _mm512_cmp_ps_mask(_mm512_abs_ps(origin), largest, _CMP_LE_OQ) & _mm512_cmp_ps_mask(_mm512_abs_ps(dir), largest, _CMP_LE_OQ);
         parallel = _mm512_cmp_ps_mask(_mm512_abs_ps(dir), _mm512_set1_ps(kClvParallel), _CMP_NGT_UQ);
-        inverse = _mm512_mask_blend_ps(parallel, _mm512_div_ps(one, dir), one);
+        inverse = _mm512_mask_div_ps(one, __mmask16(~parallel), one, dir);
         const __m512 top = _mm512_set1_ps(size);
         const __m512 a = _mm512_mul_ps(_mm512_sub_ps(zero, origin), inverse);
         const __m512 b = _mm512_mul_ps(_mm512_sub_ps(top, origin), inverse);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../data/rsm_texel.h"
+#include "../plan/number_check.h"
 #include "parallel.h"
 #include "ray_guide.h"
 
@@ -126,7 +127,7 @@ public:
 private:
     double importance(const ClvRsmTexel& texel) const {
         const double sum = double(texel.flux.x) + texel.flux.y + texel.flux.z;
-        if (texel.valid == 0u || !(sum > 0.0 && sum < 1e30)) return 0.0;
+        if (texel.valid == 0u || !liesIn(sum, 0.0, 1e30)) return 0.0;
         return guide_ ? sum * guide_->texelWeight(texel.position) : sum;
     }
 

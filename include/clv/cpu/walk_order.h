@@ -7,8 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "../data/light_volume.h"
-#include "../data/ray.h"
+#include "../stages/inject.h"
 
 namespace clv {
 
@@ -44,7 +43,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const float low = lo[axis], high = hi[axis];
             for (int i = 0; i < count; ++i) {
-                const float inverse = 1.0f / direction[axis][i];
+                const float d = direction[axis][i], inverse = 1.0f / (std::abs(d) > kClvParallel ? d : kClvParallel);
                 const float toLow = (low - origin[axis][i]) * inverse, toHigh = (high - origin[axis][i]) * inverse;
                 const float near = std::min(toLow, toHigh), far = std::max(toLow, toHigh);
                 enter[i] = std::max(enter[i], near);
@@ -54,7 +53,7 @@ private:
         }
         const float scale = 1.0f / volume.cellSize;
         for (int i = 0; i < count; ++i) {
-            // Written so that NaN, which a ray along the edge of the grid may give, becomes 0.
+            // Written so that NaN, of rays that are not finite, becomes 0.
             bucket_[i] = int(std::min(std::max(0.0f, (leave[i] - enter[i]) * slope[i] * scale), float(kBuckets - 1)));
         }
     }

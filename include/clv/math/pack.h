@@ -1,7 +1,7 @@
 // Numbers in fewer bits. Rounding is to the nearest; every encoder takes any input, and every decoder yields finite numbers.
 #ifndef CLV_MATH_PACK_H
 #define CLV_MATH_PACK_H
-#include "../lang.h"
+#include "finite.h"
 CLV_NAMESPACE_BEGIN
 
 // The nearest integer, halves up, of x in [0, 2^24). Adding 1/2 and cutting would go wrong from 2^23 on.
@@ -11,7 +11,7 @@ CLV_FN uint clvRound(float x) {
 }
 
 // A float cut to a number that is neither negative nor above `largest`; NaN becomes 0.
-CLV_FN float clvSaturate(float x, float largest) { return x > 0.0f ? min(x, largest) : 0.0f; }
+CLV_FN float clvSaturate(float x, float largest) { return x > 0.0f && !clvIsNan(x) ? min(x, largest) : 0.0f; }
 
 // [0, 1] in 16 bits. Below 0 and NaN give 0, above 1 gives 1. Error at most 1/131070.
 CLV_FN uint clvUnorm16FromFloat(float x) { return clvRound(clvSaturate(x, 1.0f) * 65535.0f); }
@@ -58,7 +58,7 @@ CLV_FN uint clvHalfFromFloat(float x) {
 }
 CLV_FN float clvFloatFromHalf(uint bits) {
     float magnitude = clvFloatFromSmallFloat(bits & 0x7fffu, 10u, 65504.0f);
-    return (bits & 0x8000u) != 0u ? -magnitude : magnitude;
+    return clvFloatFromBits(clvBitsFromFloat(magnitude) | ((bits & 0x8000u) << 16));
 }
 // The same, rounded up or down by chance, so that the mean over many random numbers is x: a history kept in halves goes on where
 // rounding to the nearest would stop. `random`: 32 random bits.

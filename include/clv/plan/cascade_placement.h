@@ -12,6 +12,7 @@
 
 #include "../data/cascades.h"
 #include "cell_box.h"
+#include "number_check.h"
 
 namespace clv {
 
@@ -25,7 +26,7 @@ enum class CascadeFit {
 struct CascadeDesc {
     int count = 4;                 // [1, kClvMaxCascades]
     ivec3 resolution{32};          // cells an axis of every cascade, > 2 * marginCells + 3, <= 1024
-    double finestCellSize = 0.25;  // m, > 0
+    double finestCellSize = 0.25;  // m, >= kMinCellSize
     double growth = 2.0;           // >= 1: cell size over that of the next finer cascade
     int marginCells = 2;           // >= 0: cells at each side that no surface in view needs
     CascadeFit fit = CascadeFit::camera;
@@ -47,6 +48,9 @@ struct PlacedCascade {
 // Beyond this many cells from the origin a double no longer tells cells apart.
 inline constexpr double kMaxLatticeCoordinate = 4503599627370496.0;  // 2^52
 
+// m: within these a cell's volume, and one over it, are floats of full precision.
+inline constexpr double kMinCellSize = 1e-12, kMaxCellSize = 1e12;
+
 // Cells an axis, so that the index of a cell fits an int.
 inline constexpr int kMaxCascadeResolution = 1024;
 
@@ -60,10 +64,9 @@ inline std::string validate(const CascadeDesc& desc) {
     if (desc.count < 1 || desc.count > int(kClvMaxCascades)) {
         return "cascades: count must lie in [1, " + std::to_string(kClvMaxCascades) + "], not " + std::to_string(desc.count);
     }
-    // As floats, which is what the core computes with.
-    if (!(float(desc.finestCellSize) > 0.0f)) return "cascades: finestCellSize must be above 0 m";
-    if (!(desc.growth >= 1.0)) return "cascades: growth must be at least 1";
-    if (!(cascadeCellSize(desc, desc.count - 1) < kClvFar)) return "cascades: the coarsest cells are larger than the longest ray";
+    if (!liesIn(desc.finestCellSize, kMinCellSize)) return "cascades: finestCellSize must be at least 1e-12 m";
+    if (!liesIn(desc.growth, 1.0)) return "cascades: growth must be at least 1";
+    if (!liesIn(cascadeCellSize(desc, desc.count - 1), 0.0, kMaxCellSize)) return "cascades: the coarsest cells must be at most 1e12 m";
     if (desc.marginCells < 0) return "cascades: marginCells must not be negative";
     for (int axis = 0; axis < 3; ++axis) {
         if (desc.resolution[axis] / 2 - 1 <= desc.marginCells) return "cascades: resolution must exceed 2 * marginCells + 3";
@@ -78,14 +81,14 @@ inline std::string validate(const CascadeDesc& desc) {
 inline std::string validate(const CascadeDesc& desc, const CameraView& view) {
     if (std::string problem = validate(desc); !problem.empty()) return problem;
     for (int axis = 0; axis < 3; ++axis) {
-        if (!std::isfinite(view.position[axis])) return "camera: position must be finite";
+        if (!isFinite(view.position[axis])) return "camera: position must be finite";
         if (std::abs(view.position[axis]) / desc.finestCellSize > kMaxLatticeCoordinate) {
             return "camera: position is more than 2^52 of the finest cells away from the origin";
         }
     }
-    if (!(std::abs(glm::length(view.forward) - 1.0) < 1e-6)) return "camera: forward must be of unit length";
-    if (!(view.yfov > 0.0 && view.yfov < double(kClvPi))) return "camera: yfov must lie in (0, pi)";
-    if (!(view.aspect > 0.0) || !std::isfinite(view.aspect)) return "camera: aspect must be above 0";
+    if (!liesIn(glm::length(view.forward), 1.0 - 1e-6, 1.0 + 1e-6)) return "camera: forward must be of unit length";
+    if (!isFinite(view.yfov) || view.yfov <= 0.0 || view.yfov >= double(kClvPi)) return "camera: yfov must lie in (0, pi)";
+    if (!isFinite(view.aspect) || view.aspect <= 0.0) return "camera: aspect must be above 0";
     return {};
 }
 

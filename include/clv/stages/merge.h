@@ -32,10 +32,13 @@ CLV_FN float clvDecayed(float timestep, float rate) {
     return 1.0f - exp(-x);
 }
 
+// Rate of a decay to 1/e within `time` (s), 1/s; kClvFar: none. Finite for any time, so that differences of rates are numbers.
+CLV_FN float clvDecayRate(float time) { return time < kClvFar ? 1.0f / max(1.0e-30f, time) : 0.0f; }
+
 // Share of the history that a frame replaces, [0, 1]: the decay rate is linear in dynamicity.
 CLV_FN float clvMergeAlpha(CLV_IN(ClvMergeSettings) settings, float dynamicity) {
-    float still = settings.stillTime < kClvFar ? 1.0f / settings.stillTime : 0.0f;
-    float moving = 1.0f / settings.movingTime;
+    float still = clvDecayRate(settings.stillTime);
+    float moving = clvDecayRate(settings.movingTime);
     return clvDecayed(settings.timestep, still + (moving - still) * clamp(dynamicity, 0.0f, 1.0f));
 }
 
@@ -79,7 +82,7 @@ CLV_FN float clvMergeDithered(float history, float current, float weight, uint r
 
 // Dynamicity of a cell: the largest wins at once, and wears off slowly.
 CLV_FN float clvMergeDynamicity(CLV_IN(ClvMergeSettings) settings, float history, float current) {
-    float kept = history * (1.0f - clvDecayed(settings.timestep, 1.0f / settings.dynamicityTime));
+    float kept = history * (1.0f - clvDecayed(settings.timestep, clvDecayRate(settings.dynamicityTime)));
     return max(clvIsFinite(kept) ? kept : 0.0f, clvIsFinite(current) ? current : 0.0f);
 }
 

@@ -1,0 +1,88 @@
+// The core runs where an engine has floating-point traps switched on: no number of a frame is invalid, divided by zero or too large.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "bindings/cli/stress/walk_rays.h"
+#include "clv/clv.h"
+#include "cpu/moving_scene.h"
+#include "support/floating_point_traps.h"
+
+using namespace clv;
+using namespace clv::test;
+
+namespace {
+
+TEST(FloatingPointTraps, areSprungByAFault) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    volatile float zero = 0.0f;
+    EXPECT_EXIT(
+        {
+            const FloatingPointTraps traps;
+            zero = 1.0f / zero;
+        },
+        testing::KilledBySignal(SIGFPE), "");
+}
+
+TEST(FloatingPointTraps, areNotSprungByFramesAroundAMovingCamera) {
+    const LitHall hall;
+    for (uint storage : {kClvStorageCube, kClvStorageCube9, kClvStorageSh1, kClvStorageSh2}) {
+        MovingLightingSettings settings = twoCascades();
+        settings.layout.storage = storage, settings.movingLights = storage % 2 == 0;
+        const FloatingPointTraps traps;
+        MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+        for (int step = 0; step < 4; ++step) {
+            lighting.moveTo(viewFrom(1.3 * step, 0.0, -0.7 * step));
+            hall.frame(lighting, 2000);
+        }
+        EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(0.0f), 3.0f))).x, 0.0f);
+    }
+}
+
+TEST(FloatingPointTraps, areNotSprungByStillLightAndItsGuide) {
+    LitHall hall;
+    StillLightingSettings settings;
+    settings.parts = {2, 1};
+    const std::vector<ClvReceiver> receivers = floorAround(vec3(0.0f), 5.0f);
+    const FloatingPointTraps traps;
+    StillLighting lighting(settings, hall.tracer(), serialFor());
+    const ClvVolume volume = volumeOverBounds(vec3(-10.0f, -3.0f, -7.0f), vec3(10.0f, 3.0f, 7.0f), 12, kClvStorageCube9);
+    lighting.addLevel(buildLevel(volume, hall.scene.probe(), neededCells(volume, receivers), serialFor()));
+    const LookupTable lookup(lighting.volumes()[0].level(), receivers, LookupOptions{}, serialFor());
+    for (int frame = 0; frame < 2; ++frame) {
+        hall.light(litPatches());
+        lighting.rays(hall.sampler, 4000);
+        lighting.trace();
+        lighting.inject();
+        lighting.merge();
+    }
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < receivers.size(); ++i) sum += lookup.irradiance(i, settings.layout, lighting.volumes()[0].history(0), settings.layout.read(receivers[i].normal)).x;
+    EXPECT_GT(sum, 0.0f);
+}
+
+TEST(FloatingPointTraps, areNotSprungByRaysOfAnyKind) {
+    ClvVolume volume{};
+    volume.origin = vec3(-3.1f, 0.7f, -9.2f), volume.cellSize = 0.37f, volume.resolution = ivec3(33, 17, 25), volume.storage = kClvStorageCube9;
+    const Level level = buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+    const DepositLayout layout;
+    Random random(5);
+    std::vector<ClvRay> rays;
+    for (int k = 0; k < 20000; ++k) rays.push_back(rayOfKind(RayKind(k % int(RayKind::kCount)), random, volume));
+    PartialVolume partial;
+    partial.resize(level.slots.size(), layout, false);
+    const FloatingPointTraps traps;
+    inject(level, layout, kClvInjectTrackLength, rays, partial.target());
+    inject(level, layout, kClvInjectThesis, rays, partial.target());
+    CrossingBuffer buffer;
+    float length = 0.0f;
+    const auto flush = [&](CrossingBuffer& crossings) {
+        for (int k = 0; k < crossings.count; ++k) length += crossings.weight[k];
+        crossings.count = 0;
+    };
+    walkPacketPortable(level, kClvInjectTrackLength, std::span(rays).first(kPacketLanes), buffer, flush);
+    flush(buffer);
+    EXPECT_GT(length, 0.0f);
+}
+
+}  // namespace
