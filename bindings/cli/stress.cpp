@@ -14,7 +14,7 @@ namespace clv {
 
 std::vector<StressCase> stressCases() {
     std::vector<StressCase> all;
-    for (auto group : {historyCases, walkCases, fluxCases, gridCases, bounceCases, brightnessCases, sceneCases}) {
+    for (auto group : {historyCases, walkCases, fluxCases, gridCases, propertyCases, precisionCases, bounceCases, brightnessCases, sceneCases, extremeCases}) {
         for (StressCase& one : group()) all.push_back(std::move(one));
     }
     return all;
@@ -92,7 +92,7 @@ private:
 void addStressCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stress", "Try stiff and extreme cases; fails where one does not hold");
     auto options = std::make_shared<StressCommand>();
-    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays and more: a minute in place of ten seconds");
+    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays, ten million triangles and more: minutes in place of ten seconds");
     command->add_option("--only", options->only, "Cases of this group, or with this in their name");
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });

@@ -37,9 +37,12 @@ std::vector<StressCase> historyCases();
 std::vector<StressCase> walkCases();
 std::vector<StressCase> fluxCases();
 std::vector<StressCase> gridCases();
+std::vector<StressCase> propertyCases();
+std::vector<StressCase> precisionCases();
 std::vector<StressCase> bounceCases();
 std::vector<StressCase> brightnessCases();
 std::vector<StressCase> sceneCases();
+std::vector<StressCase> extremeCases();
 
 // All of them, group by group.
 std::vector<StressCase> stressCases();
