@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include <CLI/Config.hpp>
@@ -46,7 +47,8 @@ int runCommandLine(int argc, const char* const* argv) {
         if (app.get_subcommands().empty()) return fail(kBadUsageOrInput, app, "expected a command; see clv --help");
         return kSuccess;
     } catch (const CLI::Success& asked) {
-        return app.exit(asked);  // prints the help or the version
+        app.exit(asked);  // prints the help or the version
+        return std::cout.flush() ? kSuccess : fail(kRunTimeFailure, app, "stdout: cannot be written");
     } catch (const CLI::Error& error) {
         return fail(kBadUsageOrInput, app, error.what());
     } catch (const InputError& error) {

@@ -33,6 +33,8 @@ void removeFolders(const std::vector<std::filesystem::path>& folders) {
 }  // namespace
 
 void cleanUpOnInterrupt() {
+    // A file that may not grow any further is then an error of that write, which cleans up, and not the end of the process.
+    std::signal(SIGXFSZ, SIG_IGN);
     sigset_t signals;
     sigemptyset(&signals);
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) {

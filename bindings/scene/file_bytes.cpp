@@ -23,6 +23,7 @@ std::vector<std::uint8_t> readFileBytes(const std::string& file) {
 void writeFileBytes(const std::string& file, const std::vector<std::uint8_t>& bytes) {
     const std::string temporary = fmt::format("{}.{}.tmp", file, getpid());
     std::ofstream out(temporary, std::ios::binary);
+    if (!out) throw InputError(file + ": cannot be written; expected a folder that exists and can be written to");
     out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     out.close();
     std::error_code error;
@@ -30,7 +31,7 @@ void writeFileBytes(const std::string& file, const std::vector<std::uint8_t>& by
     if (!out || error) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw InputError(file + ": cannot be written; expected a folder that exists and can be written to");
+        throw std::runtime_error(file + ": cannot be written; expected room for it");
     }
 }
 

@@ -1,0 +1,107 @@
+// Faults while a command works: no room on the disk, interrupts at any time. What it writes is whole or absent, and nothing else is left.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include <sys/resource.h>
+
+#include "cli/run_command.h"
+#include "clv/math/hash.h"
+#include "support/temporary_folder.h"
+
+namespace {
+
+using namespace clv;
+using Arguments = std::vector<std::string>;
+using Names = std::vector<std::string>;
+
+// A command, and what it leaves in the folder `out`.
+struct Writes {
+    Arguments arguments;
+    Names outputs;
+};
+
+// While it lives, processes that are started may not make files larger than this.
+class SmallFiles {
+public:
+    explicit SmallFiles(rlim_t mostBytes) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{mostBytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    ~SmallFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
+    SmallFiles(const SmallFiles&) = delete;
+    SmallFiles& operator=(const SmallFiles&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+class Faults : public TemporaryFolder {
+protected:
+    void SetUp() override {
+        TemporaryFolder::SetUp();
+        std::string points = "px,py,pz,nx,ny,nz\n";
+        for (int k = 0; k < 400; ++k) points += std::to_string(0.002 * k - 0.4) + ",0,0.1,0,1,0\n";
+        write("p.csv", points);
+    }
+    std::vector<Writes> commands() const {
+        return {{{"irradiance", "--scene", "cornell", "--points", file("p.csv"), "--out", file("out/r.csv"), "--rays", "100k"}, {"r.csv"}},
+                {{"reference", "--scene", "cornell", "--points", file("p.csv"), "--out", file("out/r.csv"), "--samples", "64"}, {"r.csv"}},
+                {{"scenes", "--write", file("out/cornell.glb")}, {"cornell.glb"}},
+                {{"render", "--scene", "cornell", "--out", file("out"), "--width", "64", "--height", "48", "--rays", "100k", "--samples", "4", "--error-samples", "16"},
+                 {"combined.exr", "combined.png", "direct.exr", "direct.png", "error.png", "indirect.exr", "indirect.png", "reference.exr", "reference.png"}}};
+    }
+    void emptyOut() const {
+        std::filesystem::remove_all(folder_ / "out");
+        std::filesystem::create_directory(folder_ / "out");
+    }
+};
+
+TEST_F(Faults, aFullDiskIsAFailureInOneLineAndLeavesNothing) {
+    for (const Writes& command : commands()) {
+        SCOPED_TRACE(command.arguments[0]);
+        emptyOut();
+        std::optional<SmallFiles> limit(1000);
+        RunningCommand running(command.arguments);
+        limit.reset();
+        const CommandResult result = running.wait();
+        EXPECT_EQ(result.status, 1) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
+        EXPECT_EQ(listing("out"), Names());
+    }
+}
+
+TEST_F(Faults, anInterruptAtAnyTimeLeavesAllOrNothing) {
+    int interrupted = 0;
+    for (const Writes& command : commands()) {
+        SCOPED_TRACE(command.arguments[0]);
+        emptyOut();
+        const auto begin = std::chrono::steady_clock::now();
+        ASSERT_EQ(runCommand(command.arguments).status, 0);
+        const auto whole = std::chrono::steady_clock::now() - begin;
+        ASSERT_EQ(listing("out"), command.outputs);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            emptyOut();
+            const int signal = k % 2 == 0 ? SIGINT : SIGTERM;
+            RunningCommand running(command.arguments);
+            std::this_thread::sleep_for(whole * double(clvUnitFloat(clvHashCombine(k, 7u))));
+            running.send(signal);
+            const CommandResult result = running.wait();
+            if (result.status == 0) {
+                EXPECT_EQ(listing("out"), command.outputs);
+            } else {
+                ++interrupted;
+                EXPECT_EQ(result.status, 128 + signal) << result.err;
+                const Names left = listing("out");
+                // The pictures of a set get their names one after the other, while interrupts wait.
+                EXPECT_TRUE(left.empty() || left == command.outputs) << left.size();
+            }
+        }
+    }
+    EXPECT_GT(interrupted, 4);
+}
+
+}  // namespace
