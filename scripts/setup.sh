@@ -14,7 +14,7 @@ buildPackages=(
 )
 # What the tests run beside that: compilers for every language that the shared headers are written in, and a display, a mouse and keys
 # for the inspector.
-testPackages=(clang-14 mesa-vulkan-drivers vulkan-validationlayers spirv-cross xvfb xdotool)
+testPackages=(clang-14 libclang-rt-14-dev mesa-vulkan-drivers vulkan-validationlayers spirv-cross xvfb xdotool)
 
 # Installs those of the named packages that are missing, or says which they are and ends with 1.
 installPackages() {
