@@ -5,7 +5,7 @@
 
 #include "benchmarks/report/text.h"
 
-namespace {
+namespace page_test {
 
 using namespace clv;
 
@@ -70,4 +70,4 @@ TEST(Text, base64IsThatOfRfc4648) {
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-}  // namespace
+}  // namespace page_test

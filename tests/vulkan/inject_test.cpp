@@ -12,7 +12,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace inject_test {
 
 constexpr std::uint32_t kRays = 4096;  // a power of two: history times rays is the sum of deposits without another rounding
 constexpr float kLargestFlux = 1.5f;
@@ -343,4 +343,4 @@ TEST(BrickSlots, holdEachSlotOnceInGroupsOfOneBrick) {
     EXPECT_EQ(seen.size(), level.slots.size());
 }
 
-}  // namespace
+}  // namespace inject_test

@@ -11,7 +11,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace slices_test {
 
 constexpr std::uint32_t kRays = 4096;
 constexpr double kUnit = 0x1p-24;  // rounding of a float
@@ -195,4 +195,4 @@ TEST_F(VulkanSlices, spareTheFirstCellAndKeepTheLast) {
     }
 }
 
-}  // namespace
+}  // namespace slices_test

@@ -9,7 +9,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace walk_test {
 
 constexpr std::uint32_t kRays = 1u << 16;
 
@@ -70,4 +70,4 @@ TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
-}  // namespace
+}  // namespace walk_test
