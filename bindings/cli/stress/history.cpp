@@ -57,6 +57,28 @@ std::vector<StressFigure> sideBySide(const StressSettings& settings) {
     return {{"overshoot", overshoot, 0.0}, {"fall", fall, 0.0}, {"off the exponential", error, 1e-4}, {"missing in the end", late, 5e-4}};
 }
 
+// Any two values, any step of time from the smallest float to the largest, any rates: the merge lies between the two, and a longer step goes no less far.
+std::vector<StressFigure> anyStep(const StressSettings& settings) {
+    const auto anyPower = [&](std::uint64_t index, float least, float most) { return std::pow(10.0f, least + (most - least) * unit(settings.seed, index)); };
+    double outside = 0.0, back = 0.0, weights = 0.0;
+    const std::uint64_t count = settings.exhaustive ? 100'000'000 : 1'000'000;
+    for (std::uint64_t k = 0; k < count; ++k) {
+        const float history = anyPower(6 * k, -30.0f, 30.0f), current = anyPower(6 * k + 1, -30.0f, 30.0f);
+        const float stillTime = anyPower(6 * k + 2, -30.0f, 18.0f);
+        const ClvMergeSettings merge{anyPower(6 * k + 3, -38.0f, 38.0f), stillTime, stillTime * unit(settings.seed, 6 * k + 4) + 1e-38f, 1.0f};
+        ClvMergeSettings longer = merge;
+        longer.timestep *= 1.0f + unit(settings.seed, 6 * k + 5);
+        const float dynamicity = unit(settings.seed, 6 * k + 5);
+        const float weight = clvMergeAlpha(merge, dynamicity), more = clvMergeAlpha(longer, dynamicity);
+        const float merged = clvMergeStep(history, current, weight);
+        weights += !(weight >= 0.0f && weight <= 1.0f);
+        outside += !(merged >= std::min(history, current) && merged <= std::max(history, current));
+        // The decay's two branches meet within their last places.
+        back += more < weight * (1.0f - 0x1p-20f);
+    }
+    return {{"weights outside of [0, 1]", weights, 0.0}, {"merges that overshoot, or go the other way", outside, 0.0}, {"longer steps of less weight", back, 0.0}};
+}
+
 // A bright light goes out, and a dim one stays: a frame that replaces the history leaves nothing of it.
 std::vector<StressFigure> afterBrightness(const StressSettings&) {
     double left = 0.0;
@@ -87,6 +109,7 @@ std::vector<StressCase> historyCases() {
     cases.push_back({"history", "ten million merges, plain mean", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(0.0f, s); }});
     cases.push_back({"history", "ten million merges at a weight of 0.001", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(1e-3f, s); }});
     cases.push_back({"history", "dynamicities of 1e-4 to 1, steps of 1e-4 s to 1e3 s", "each side follows its exponential, and never overshoots", sideBySide});
+    cases.push_back({"history", "any two values, any step of time", "the merge lies between the two, and a longer step goes no less far", anyStep});
     cases.push_back({"history", "light of 1e4 to 1e30 goes out, and light of 1 stays", "a weight of 1 leaves no trace", afterBrightness});
     cases.push_back({"history", "a step of 1e-4 s against a time of 1000 s", "the rate is right, and a dithered history does not stall", slowest});
     return cases;
