@@ -49,7 +49,7 @@ public:
             }
             const glm::dvec3 next = shoot(target, count);
             job_.report.sweeps = std::uint32_t(sweep);
-            ratio_ = total(next) / total(power_);
+            job_.report.contraction = ratio_ = total(next) / total(power_);
             // Behind the last sweep every further one has about the same shape, fainter by the ratio: a geometric series.
             const bool last = sweep == kMostSweeps || total(next) < kNegligible * (1.0 - std::min(ratio_, 0.999)) * first_;
             if (last && ratio_ >= kLargestRatio) warnOfNoLimit(sweep);

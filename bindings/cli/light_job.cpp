@@ -6,8 +6,11 @@
 #include "bindings/cli/scene_facts.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
+#include "bindings/embree/light_maps.h"
 #include "bindings/embree/visible_points.h"
 #include "clv/cpu/build_level.h"
+#include "clv/plan/largest_flux.h"
+#include "clv/stages/inject.h"
 
 namespace clv {
 namespace {
@@ -66,6 +69,10 @@ void LightJob::heedLights() {
     const LightCheck check = checkLights(*embree_, parallelFor);
     for (const std::string& name : check.idle) {
         report.warnings.push_back(fmt::format("light \"{}\" meets no surface: it is too far away, or looks the other way", name));
+    }
+    const float most = clvMostFlux(kClvInjectTrackLength, volumeOver(scene, options.resolution > 0 ? options.resolution : kResolutions[0], options).cellSize);
+    if (!(largestRayFlux(lightsThatSend(scene), scene.bounds.lo, scene.bounds.hi) <= most)) {
+        report.warnings.push_back(fmt::format("the lights send more than the {:g} W that cells of this size can add up: what is beyond is cut off", most));
     }
     if (check.shareOnBacks > 0.5) {
         report.warnings.push_back("most of the light falls on the backs of surfaces: all of them are taken to face the other way");

@@ -70,6 +70,7 @@
 #include "plan/frame_check.h"
 #include "plan/largest_flux.h"
 #include "plan/light_frame.h"
+#include "plan/light_frame_check.h"
 #include "plan/map_faces.h"
 #include "plan/needs.h"
 #include "plan/number_check.h"

@@ -29,7 +29,7 @@ Expected expectedLines(const Level& level, const DepositLayout& layout, std::spa
     const std::size_t stride = std::size_t(layout.stride()), slots = level.slots.size();
     Expected expected{std::vector<double>(2 * slots * stride), std::vector<double>(2 * slots * stride), std::vector<int>(2 * slots), std::vector<float>(12 * slots), std::vector<float>(12 * slots)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], rays[i].direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], rays[i].direction, clvMostFlux(kClvInjectThesis, level.volume.cellSize));
         const ClvCoefficients sides = clvDepositCoefficients(kClvStorageCube, rays[i].direction);
         const ClvSlices slices = clvSlicesOfRay(level.volume, rays[i]);
         for (int s = 0; s < slices.count; ++s) {
