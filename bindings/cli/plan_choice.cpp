@@ -1,70 +1,33 @@
 #include "bindings/cli/plan_choice.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/provenance.h"
 #include "benchmarks/report/trials.h"
+#include "bindings/cli/model_cache.h"
 #include "bindings/cli/progress.h"
-#include "bindings/cli/staged_output.h"
 
 namespace clv {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr int kVerifyRepeats = 9;
 
-// As the XDG base directory specification has it; empty where there is no home.
-fs::path cacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache && *cache) return fs::path(cache) / "clv";
-    const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".cache" / "clv" : fs::path();
-}
-
-// All that measurements of the model depend on.
-nlohmann::json modelKey(const ChoiceOptions& options, const CommonOptions& common) {
-    return {{"program", programChecksum()}, {"processor", provenance().at("processor")}, {"threads", threadCount(common)}, {"readers", options.readers}};
-}
-
-std::optional<CostModel> readModel(const fs::path& file, const nlohmann::json& key) {
-    std::ifstream input(file, std::ios::binary);
-    const nlohmann::json kept = nlohmann::json::parse(input, nullptr, false);
-    try {
-        if (kept.at("key") == key) return CostModel::fromJson(kept.at("model"));
-    } catch (const nlohmann::json::exception&) {
-        // A file that is missing or damaged: the model is made anew.
-    }
-    return {};
-}
-
-// What cannot be kept is made again the next time.
-void keepModel(const fs::path& file, const nlohmann::json& key, const CostModel& model) {
-    try {
-        fs::create_directories(file.parent_path());
-        StagedFile output(file);
-        std::ofstream(output.path(), std::ios::binary) << nlohmann::json{{"key", key}, {"model", model.toJson()}}.dump(2) << "\n";
-        output.commit();
-    } catch (const std::runtime_error& error) {
-        fmt::print(stderr, "clv: the model of this machine is not kept: {}\n", error.what());
-    }
-}
-
 CostModel modelOfThisMachine(const ChoiceOptions& options, const CommonOptions& common, const ParallelFor& parallelFor, Report& report) {
-    const fs::path folder = cacheFolder(), file = folder / "cost_model.json";
-    const nlohmann::json key = modelKey(options, common);
-    std::optional<CostModel> model = folder.empty() ? std::nullopt : readModel(file, key);
+    const ModelCache cache(userCacheFolder());
+    const nlohmann::json key = modelKey(threadCount(common), options.readers);
+    std::optional<CostModel> model = cache.find(key);
     report["model"] = model ? "kept from an earlier run" : "made now";
     if (!model) {
         Progress progress("measuring this machine");
         model = calibrate(options.readers, parallelFor, [&](double share) { progress.update(share); });
-        if (!folder.empty()) keepModel(file, key, *model);
+        try {
+            cache.keep(key, *model);
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "clv: the model of this machine is not kept: {}\n", error.what());
+        }
     }
     return *model;
 }
