@@ -66,7 +66,11 @@ std::vector<HeatMap> heatMapsAt(double seconds, double readers, const std::vecto
             if (curve.method == method) points.insert(points.end(), curve.points.begin(), curve.points.end());
         }
         const Measurement* chosen = bestWithin(points, seconds, readers);
-        if (!chosen) chosen = paretoFront(points, readers).front();
+        if (!chosen) {
+            const Points front = paretoFront(points, readers);
+            if (front.empty()) continue;
+            chosen = front.front();
+        }
         pictures.push_back({chosen, pixelErrors(readImage(pictureFile(folder, *chosen).string()), truth)});
         std::ranges::copy_if(pictures.back().errors, std::back_inserter(seen), [](float e) { return std::isfinite(e); });
     }

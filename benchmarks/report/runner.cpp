@@ -95,18 +95,19 @@ private:
                 Measurement m;
                 m.scene = scene, m.method = method->name(), m.settings = method->settings(), m.rays = rays, m.frames = frames;
                 m.key = fmt::format("{}; {}; {} rays, {} frames; {} points, {} pixels across, {} paths, {} repeats from seed {}; {}", scene, curveName(m), rays, frames,
-                                    plan_.truth.points, plan_.truth.pictureWidth, plan_.truth.samples, plan_.repeats, plan_.seed, plan_.program);
+                                    plan_.truth.points, plan_.truth.pictureWidth, plan_.truth.samples, repeatsOf(one), plan_.seed, plan_.program);
                 asked.push_back(m);
             }
         }
         return asked;
     }
+    int repeatsOf(const MethodCase& one) const { return one.repeats > 0 ? one.repeats : plan_.repeats; }
     bool isMissing(const Measurement& m) const { return !file_.find(m.key); }
     // Rays to trace, about.
     double workOf(const std::string& scene, const MethodCase& one) const {
         double rays = 0.0;
         for (const Measurement& m : askedOf(scene, one)) {
-            if (isMissing(m)) rays += (plan_.repeats + 1.0) * double(m.rays) * m.frames;
+            if (isMissing(m)) rays += (repeatsOf(one) + 1.0) * double(m.rays) * m.frames;
         }
         return rays > 0.0 ? rays + kSetupRays : 0.0;
     }
@@ -132,7 +133,7 @@ private:
             std::vector<Measurement> some;
             std::ranges::copy_if(asked, std::back_inserter(some), [&](const Measurement& m) { return m.rays == rays && isMissing(m); });
             if (some.empty()) continue;
-            measureRays(*method, some, truth);
+            measureRays(*method, repeatsOf(one), some, truth);
             for (Measurement& m : some) {
                 m.setupSeconds = setup;
                 file_.add(m);
@@ -141,7 +142,7 @@ private:
     }
 
     // Measurements that differ by their number of frames alone.
-    void measureRays(Method& method, std::vector<Measurement>& some, const SceneTruth& truth) {
+    void measureRays(Method& method, int count, std::vector<Measurement>& some, const SceneTruth& truth) {
         std::vector<Repeats> repeats(some.size());
         std::vector<glm::vec3> irradiance(truth.receivers.size());
         const int frames = some.back().frames;
@@ -149,7 +150,7 @@ private:
         method.renderMaps();
         method.frame(some.front().rays);
         method.irradiance(irradiance);
-        for (int repeat = 0; repeat < plan_.repeats; ++repeat) {
+        for (int repeat = 0; repeat < count; ++repeat) {
             method.restart(plan_.seed + std::uint32_t(repeat));
             double maps = 0.0, light = 0.0;
             for (int frame = 1; frame <= frames; ++frame) {
@@ -160,7 +161,9 @@ private:
                 Repeats& figures = repeats[std::size_t(m - some.begin())];
                 figures.maps.push_back(maps);
                 figures.frames.push_back(light);
-                figures.lookups.push_back(StageClock::secondsOf([&] { method.irradiance(irradiance); }));
+                const auto readAll = [&] { method.irradiance(irradiance); };
+                const double lookups = StageClock::secondsOf(readAll);
+                figures.lookups.push_back(method.picturePixels() > 0 ? StageClock::secondsOf([&] { method.readPicture(); }) : lookups);
                 judge(irradiance, truth, figures);
                 if (repeat == 0) judgeOnce(method, irradiance, truth, *m);
             }
@@ -178,7 +181,8 @@ private:
     }
     void judgeOnce(const Method& method, std::span<const glm::vec3> irradiance, const SceneTruth& truth, Measurement& m) const {
         m.truthError = truth.error;
-        m.receivers = truth.receivers.size();
+        m.wholePicture = method.picturePixels() > 0;
+        m.receivers = m.wholePicture ? method.picturePixels() : truth.receivers.size();
         m.sharesRays = method.sharesRays();
         m.raysTraced = method.raysTraced();
         m.bytes = method.bytes();

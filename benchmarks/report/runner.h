@@ -17,6 +17,7 @@ struct MethodCase {
     std::function<std::unique_ptr<Method>()> make;
     std::vector<std::uint64_t> rays;   // of a frame; a measurement each
     std::vector<int> frames = {1};     // merged; rising; a measurement each, for every number of rays
+    int repeats = 0;                   // in place of the plan's, where they would take too long; 0: the plan's
 };
 
 struct ReportPlan {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/checksum.h"
+#include "benchmarks/report/kept_file.h"
 #include "benchmarks/report/metrics.h"
 
 namespace clv {
@@ -30,12 +31,6 @@ std::uint64_t checksumOf(const Scene& scene, std::span<const ReferencePoint> rec
     return sum.value();
 }
 
-double relativeError(std::span<const ReferenceResult> results, double mean) {
-    double squares = 0.0;
-    for (const ReferenceResult& result : results) squares += glm::dot(glm::dvec3(result.standardError), glm::dvec3(result.standardError));
-    return relativeTo(std::sqrt(squares / (3.0 * double(std::max<std::size_t>(1, results.size())))), mean);
-}
-
 // Nothing where the file is missing or not what it should be: then the truth is found anew.
 std::optional<nlohmann::json> readCache(const fs::path& file, std::size_t receivers) {
     std::ifstream input(file, std::ios::binary);
@@ -48,16 +43,22 @@ std::optional<nlohmann::json> readCache(const fs::path& file, std::size_t receiv
 void writeCache(const fs::path& file, const SceneTruth& truth) {
     nlohmann::json values = nlohmann::json::array();
     for (const glm::vec3& e : truth.irradiance) values.insert(values.end(), {e.x, e.y, e.z});
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor({{"error", truth.error}, {"irradiance", values}});
-    const fs::path unfinished = file.string() + ".unfinished";
-    std::ofstream output(unfinished, std::ios::binary);
-    output.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    output.close();
-    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", unfinished.string()));
-    fs::rename(unfinished, file);
+    std::string bytes;
+    nlohmann::json::to_cbor({{"error", truth.error}, {"irradiance", values}}, bytes);
+    keepFile(file, bytes);
 }
 
 }  // namespace
+
+double truthError(std::span<const ReferenceResult> results) {
+    double squares = 0.0;
+    std::vector<glm::vec3> truth;
+    for (const ReferenceResult& result : results) {
+        squares += glm::dot(glm::dvec3(result.standardError), glm::dvec3(result.standardError));
+        truth.push_back(result.irradiance);
+    }
+    return relativeTo(std::sqrt(squares / (3.0 * double(std::max<std::size_t>(1, results.size())))), meanIrradiance(truth));
+}
 
 SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const fs::path& folder, const ParallelFor& parallelFor) {
     SceneTruth truth;
@@ -80,7 +81,7 @@ SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, co
     std::vector<ReferenceResult> results(truth.receivers.size());
     referenceIrradiance(scene, truth.receivers, {.samplesPerPoint = settings.samples}, parallelFor, results);
     for (const ReferenceResult& result : results) truth.irradiance.push_back(result.irradiance);
-    truth.error = relativeError(std::span(results).first(truth.points), meanIrradiance(truth.atPoints(truth.irradiance)));
+    truth.error = truthError(std::span(results).first(truth.points));
     writeCache(file, truth);
     return truth;
 }

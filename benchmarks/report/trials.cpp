@@ -31,12 +31,8 @@ TrialScene::TrialScene(const EmbreeScene& scene_, double readers_, const Paralle
     if (points.empty()) throw InputError(scene.scene().name + ": its cameras see nothing; expected points to measure at");
     std::vector<ReferenceResult> results(points.size());
     referenceIrradiance(scene, points, {.samplesPerPoint = kTruthSamples}, parallelFor, results);
-    double squares = 0.0;
-    for (const ReferenceResult& result : results) {
-        truth.push_back(result.irradiance);
-        squares += glm::dot(result.standardError, result.standardError) / (3.0 * double(points.size()));
-    }
-    truthError = relativeTo(std::sqrt(squares), meanIrradiance(truth));
+    for (const ReferenceResult& result : results) truth.push_back(result.irradiance);
+    truthError = clv::truthError(results);
 }
 
 struct TrialRun::Frames {
