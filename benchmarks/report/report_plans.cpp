@@ -76,7 +76,6 @@ ReportPlan quickPlan(const std::string& vulkanDevice) {
         ddgi(kDdgiMean, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
         asPicture(lightVolume({}, {64 * kThousand, 256 * kThousand})),
-        asPicture(lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, {64 * kThousand})),
         asPicture(lightVolume({.resolution = 16, .guided = false}, {16 * kThousand, 64 * kThousand}, {1, 4, 16})),
         asPicture(lightVolume({.resolution = 32}, {64 * kThousand}, {1, 4, 16})),
         asPicture(ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16})),

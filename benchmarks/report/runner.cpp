@@ -71,13 +71,14 @@ public:
         fs::create_directory(folder_ / "pictures");
         for (const std::string& scene : plan_.scenes) {
             for (const MethodCase& one : plan_.cases) work_ += workOf(scene, one);
+            if (isAsked(scene)) work_ += truthWork();
         }
     }
 
     std::vector<Measurement> run() {
         std::vector<Measurement> all;
         for (const std::string& name : plan_.scenes) {
-            if (std::ranges::any_of(plan_.cases, [&](const MethodCase& one) { return workOf(name, one) > 0.0; })) measureScene(name);
+            if (isAsked(name)) measureScene(name);
             for (const MethodCase& one : plan_.cases) {
                 for (const Measurement& m : askedOf(name, one)) all.push_back(*file_.find(m.key));
             }
@@ -112,10 +113,20 @@ private:
         return rays > 0.0 ? rays + kSetupRays : 0.0;
     }
 
+    bool isAsked(const std::string& scene) const {
+        return std::ranges::any_of(plan_.cases, [&](const MethodCase& one) { return workOf(scene, one) > 0.0; });
+    }
+    // The same of the truth, for a picture as most cameras have it.
+    double truthWork() const {
+        const double across = plan_.truth.pictureWidth, pixels = across * across * kPictureHeight / kPictureWidth;
+        return (double(plan_.truth.points) + pixels) * double(plan_.truth.samples);
+    }
+
     void measureScene(const std::string& name) {
         const Scene scene = loadScene(name);
         const EmbreeScene embree(scene);
-        const SceneTruth truth = findTruth(embree, plan_.truth, folder_ / "truths", parallelFor_);
+        const SceneTruth truth = findTruth(embree, plan_.truth, folder_ / "truths", parallelFor_, [&](double share) { onProgress_((done_ + share * truthWork()) / work_); });
+        done_ += truthWork();
         writePicture(truth.irradiance, truth, truthPictureFile(folder_, plan_, name));
         for (const MethodCase& one : plan_.cases) {
             const double work = workOf(name, one);

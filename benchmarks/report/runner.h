@@ -30,7 +30,7 @@ struct ReportPlan {
 };
 
 // All measurements in the order of scenes, cases, rays and frames. `folder` must exist; it gets measurements.jsonl, the truths and the
-// pictures (irradiance, named after the measurement by pictureFile()). `onProgress` is told the share of the work that is done.
+// pictures (irradiance, named after the measurement by pictureFile()). `onProgress` is told the share of the work that is done, from any thread.
 // Throws InputError where a scene is none, or the folder holds something else.
 std::vector<Measurement> measureAll(const ReportPlan& plan, const std::filesystem::path& folder, const ParallelFor& parallelFor,
                                     const std::function<void(double)>& onProgress);

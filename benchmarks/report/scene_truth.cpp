@@ -1,6 +1,7 @@
 #include "benchmarks/report/scene_truth.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -60,7 +61,8 @@ double truthError(std::span<const ReferenceResult> results) {
     return relativeTo(std::sqrt(squares / (3.0 * double(std::max<std::size_t>(1, results.size())))), meanIrradiance(truth));
 }
 
-SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const fs::path& folder, const ParallelFor& parallelFor) {
+SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const fs::path& folder, const ParallelFor& parallelFor,
+                     const std::function<void(double)>& onProgress) {
     SceneTruth truth;
     for (const ClvReceiver& r : visiblePoints(scene, settings.points, kPointSeed)) truth.receivers.push_back({r.position, r.normal});
     truth.points = truth.receivers.size();
@@ -79,7 +81,14 @@ SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, co
         return truth;
     }
     std::vector<ReferenceResult> results(truth.receivers.size());
-    referenceIrradiance(scene, truth.receivers, {.samplesPerPoint = settings.samples}, parallelFor, results);
+    const ParallelFor watched = [&](std::size_t count, const std::function<void(std::size_t)>& body) {
+        std::atomic<std::size_t> done = 0;
+        parallelFor(count, [&](std::size_t i) {
+            body(i);
+            onProgress(double(++done) / double(count));
+        });
+    };
+    referenceIrradiance(scene, truth.receivers, {.samplesPerPoint = settings.samples}, watched, results);
     for (const ReferenceResult& result : results) truth.irradiance.push_back(result.irradiance);
     truth.error = truthError(std::span(results).first(truth.points));
     writeCache(file, truth);

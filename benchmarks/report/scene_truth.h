@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct SceneTruth {
 double truthError(std::span<const ReferenceResult> results);
 
 // Kept in a file of `folder`, which must exist, and read from there the next time.
-SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const std::filesystem::path& folder, const ParallelFor& parallelFor);
+// `onProgress` is told the share of it that is done, from any thread.
+SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const std::filesystem::path& folder, const ParallelFor& parallelFor,
+                     const std::function<void(double)>& onProgress = [](double) {});
 
 }  // namespace clv

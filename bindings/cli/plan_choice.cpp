@@ -6,14 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/trials.h"
 #include "bindings/cli/model_cache.h"
 #include "bindings/cli/progress.h"
 
 namespace clv {
 namespace {
 
-constexpr int kVerifyRepeats = 9;
+constexpr int kVerifyRepeats = 9, kMostPoints = 1 << 20;
 
 CostModel modelOfThisMachine(const ChoiceOptions& options, const CommonOptions& common, const ParallelFor& parallelFor, Report& report) {
     const ModelCache cache(userCacheFolder());
@@ -47,13 +46,14 @@ void addChoiceOptions(CLI::App& command, ChoiceOptions& options) {
     auto* budget = addPositiveOption(command, "--budget-ms", options.budgetMs, "Choose what errs least within this run time of a frame, ms");
     addPositiveOption(command, "--target-error", options.targetError, "Choose the fastest that errs at most so much (relative RMSE; 0.1 is 10 %)")->excludes(budget);
     addPositiveOption(command, "--readers", options.readers, "Points that receive the light; their lookups are in the time")->capture_default_str();
+    command.add_option("--points", options.points, "Points where the scene's errors are measured, to foretell them and to compare")->check(CLI::Range(1, kMostPoints))->capture_default_str();
     command.add_flag("--promise-only", options.promiseOnly, "Do not run the choice to compare it with the promise");
 }
 
 void chooseSetting(const Scene& scene, std::span<const int> resolutions, const ChoiceOptions& options, const CommonOptions& common, Report& report) {
     const ParallelFor parallelFor = parallelForOf(common);
     const EmbreeScene embree(scene);
-    const TrialScene world(embree, options.readers, parallelFor);
+    const TrialScene world(embree, options.readers, parallelFor, options.points);
     const CostModel model = modelOfThisMachine(options, common, parallelFor, report);
     std::map<int, std::unique_ptr<TrialRun>> runs;
     std::vector<Trial> trials;

@@ -34,7 +34,7 @@ protected:
         TemporaryFolder::TearDown();
     }
     static CommandResult plan(std::vector<std::string> more) {
-        std::vector<std::string> all = {"plan", "--scene", "white_sphere", "--resolution", "16", "--threads", "2", "--json"};
+        std::vector<std::string> all = {"plan", "--scene", "furnace_box", "--resolution", "16", "--points", "100", "--threads", "2", "--json"};
         all.insert(all.end(), more.begin(), more.end());
         return runCommand(all);
     }
@@ -63,6 +63,7 @@ TEST_F(PlanChoice, whatCannotBeHadIsRefusedWithWhatCan) {
     }
     EXPECT_EQ(plan({"--budget-ms", "5", "--target-error", "0.1"}).status, 2);
     EXPECT_EQ(plan({"--budget-ms", "0"}).status, 2);
+    EXPECT_EQ(plan({"--budget-ms", "5", "--points", "0"}).status, 2);
 }
 
 TEST_F(PlanChoice, aPromiseAloneRunsNothing) {
