@@ -20,7 +20,7 @@ constexpr double kPictureBudgets[] = {50e-3, 100e-3, 200e-3, 500e-3, 1.0, 5.0};
 constexpr const char* kStyle = R"(
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1300px; padding: 0 1em; color: #222; }
 table { border-collapse: collapse; margin: 0.7em 0 1.5em; }
-td:first-child { white-space: nowrap; }
+td:first-child, .plots td { white-space: nowrap; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.25em 0.8em; text-align: left; vertical-align: top; }
 th { border-bottom: 2px solid #888; }
 small, .note { color: #666; }
