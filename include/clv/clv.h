@@ -95,6 +95,7 @@
 #include "cpu/packet_walk.h"
 #include "cpu/parallel.h"
 #include "cpu/partial_volume.h"
+#include "cpu/picture_lookup.h"
 #include "cpu/ray_guide.h"
 #include "cpu/rays.h"
 #include "cpu/region_tree.h"
