@@ -139,6 +139,8 @@ std::string goalTable(const std::vector<Measurement>& all) {
     return text + "</table>\n";
 }
 
+std::string nanosecondsText(double nanoseconds) { return nanoseconds < 100.0 ? fmt::format("{:.1f}", nanoseconds) : groupedText(nanoseconds); }
+
 // A column of each scene: ns an item, and what it is of the machine's limit.
 std::string stageTable(const std::vector<SceneStages>& all) {
     std::vector<std::string> head = {"stage", "an item is a", "limit"};
@@ -159,7 +161,7 @@ std::string stageTable(const std::vector<SceneStages>& all) {
                 continue;
             }
             cells[1] = escaped(time->item), cells[2] = escaped(time->limit);
-            cells.insert(cells.end(), {fmt::format("{:.3g} <small>± {:.2g}</small>", time->nanoseconds, 0.5 * time->spread), fmt::format("{:.0f}", time->bytes),
+            cells.insert(cells.end(), {fmt::format("{} <small>± {}</small>", nanosecondsText(time->nanoseconds), nanosecondsText(0.5 * time->spread)), fmt::format("{:.0f}", time->bytes),
                                        fmt::format("{:.0f} %", 100.0 * time->share)});
         }
         text += row(cells);

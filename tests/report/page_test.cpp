@@ -45,12 +45,12 @@ TEST(Page, holdsEveryMeasurementPlotsAndWhereTheyComeFrom) {
 }
 
 TEST(Page, showsWhatEachStageTakesInEachScene) {
-    const StageTime trace{"trace", "ray", 91.26, 4.0, 96.0, "bare <Embree>", 0.985}, merge{"merge 32³", "slot", 10.7, 0.5, 512.0, "copy", 2.27};
+    const StageTime trace{"trace", "ray", 91.26, 4.0, 96.0, "bare <Embree>", 0.985}, merge{"merge 32³", "slot", 80123.4, 3000, 512.0, "copy", 2.27};
     const std::string page = htmlOf(kMade, {}, {}, {{"hall", {trace, merge}}, {"cave", {trace}}});
     EXPECT_NE(line(page, "<tr><th>stage</th>").find("<th>hall, ns an item</th><th>bytes</th><th>of the limit</th><th>cave, ns an item</th>"), std::string::npos);
-    const std::string cells = "<td>91.3 <small>± 2</small></td><td>96</td><td>98 %</td>";
+    const std::string cells = "<td>91.3 <small>± 2.0</small></td><td>96</td><td>98 %</td>";
     EXPECT_EQ(line(page, "<tr><td>trace</td>"), "<tr><td>trace</td><td>ray</td><td>bare &lt;Embree&gt;</td>" + cells + cells + "</tr>");
-    EXPECT_NE(line(page, "<tr><td>merge 32³</td>").find("<td>227 %</td><td>–</td>"), std::string::npos) << "the cave has no time of it";
+    EXPECT_NE(line(page, "<tr><td>merge 32³</td>").find("<td>80,123 <small>± 1,500</small></td><td>512</td><td>227 %</td><td>–</td>"), std::string::npos) << "the cave has no time of it";
 }
 
 TEST(Page, needsNothingFromElsewhereAndNamesAreNoMarkup) {
