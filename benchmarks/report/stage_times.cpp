@@ -60,7 +60,7 @@ StageTime timeOf(const std::string& stage, const StageRun& run) {
 std::vector<StageTime> timeStages(const Scene& scene, const std::function<void(double)>& onProgress) {
     if (scene.lights.empty()) return {};
     const StageScene s(scene, kRays);
-    const auto lit = std::make_shared<const LitLevel>(s, 32);
+    const auto lit = std::make_shared<const OpenLevel>(s, 32);
     const std::pair<const char*, std::function<StageRun()>> stages[] = {
         {"rsm", [&] { return rsmRun(s); }},
         {"rays", [&] { return raysRun(s); }},

@@ -91,7 +91,7 @@ StageRun mergeRun(const StageScene& s, int n) {
     return {"slot", slots, bytes, "copy", nothing, [volume, rays] { volume->merge(rays, 2.0f / float(rays), serialFor()); }, Copy(bytes)};
 }
 
-StageRun evaluateRun(const StageScene& s, const std::shared_ptr<const LitLevel>& lit, std::uint32_t lookup) {
+StageRun evaluateRun(const StageScene& s, const std::shared_ptr<const OpenLevel>& lit, std::uint32_t lookup) {
     LookupOptions options;
     options.lookup = lookup;
     const double bytes = lit->bytes(LookupTable(lit->level, s.receivers, options, serialFor()).slots().size());
@@ -105,7 +105,7 @@ StageRun evaluateRun(const StageScene& s, const std::shared_ptr<const LitLevel>&
             Copy(bytes)};
 }
 
-StageRun evaluateKeptRun(const StageScene& s, const std::shared_ptr<const LitLevel>& lit) {
+StageRun evaluateKeptRun(const StageScene& s, const std::shared_ptr<const OpenLevel>& lit) {
     const auto table = std::make_shared<LookupTable>(lit->level, s.receivers, LookupOptions(), serialFor());
     const double bytes = lit->bytes(table->slots().size()) + double(table->bytes());
     return {"receiver", double(s.receivers.size()), bytes, "copy", nothing,

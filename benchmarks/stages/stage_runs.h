@@ -28,8 +28,8 @@ struct StageTurn {
 StageTurn takeTurn(const StageRun& run);
 
 // The open regions of about n^3 cells with the light of the scene's rays: what receivers read.
-struct LitLevel {
-    LitLevel(const StageScene& s, int n) : level(s.openLevel(n, layout.storage)), deposits(level.slots.size() * layout.stride(), 0.0f) {
+struct OpenLevel {
+    OpenLevel(const StageScene& s, int n) : level(s.openLevel(n, layout.storage)), deposits(level.slots.size() * layout.stride(), 0.0f) {
         inject(level, layout, kClvInjectTrackLength, s.cut, {deposits, {}});
     }
     double bytes(std::size_t records) const { return double(records * layout.stride() * sizeof(float)); }
@@ -46,8 +46,8 @@ StageRun traceRun(const StageScene& s);
 StageRun injectRun(const StageScene& s, int n, std::uint32_t storage);
 StageRun mergeRun(const StageScene& s, int n);
 // Weights are found anew, as for a camera that moves; kept, as for what stands still.
-StageRun evaluateRun(const StageScene& s, const std::shared_ptr<const LitLevel>& lit, std::uint32_t lookup);
-StageRun evaluateKeptRun(const StageScene& s, const std::shared_ptr<const LitLevel>& lit);
+StageRun evaluateRun(const StageScene& s, const std::shared_ptr<const OpenLevel>& lit, std::uint32_t lookup);
+StageRun evaluateKeptRun(const StageScene& s, const std::shared_ptr<const OpenLevel>& lit);
 StageRun buildLevelRun(const StageScene& s, int n);  // of cells that receivers read
 
 }  // namespace clv

@@ -65,9 +65,9 @@ void addSweeps(const std::string& scene) {
     for (const int n : kFewCellCounts) {
         const std::string ofCells = parameter("resolution", std::size_t(n));
         for (const auto& [lookupName, lookup] : kLookups) {
-            add(std::string("evaluate/") + lookupName, scene, ofCells, {}, [n, lookup](const StageScene& s) { return evaluateRun(s, std::make_shared<const LitLevel>(s, n), lookup); });
+            add(std::string("evaluate/") + lookupName, scene, ofCells, {}, [n, lookup](const StageScene& s) { return evaluateRun(s, std::make_shared<const OpenLevel>(s, n), lookup); });
         }
-        add("evaluate/kept", scene, ofCells, {}, [n](const StageScene& s) { return evaluateKeptRun(s, std::make_shared<const LitLevel>(s, n)); });
+        add("evaluate/kept", scene, ofCells, {}, [n](const StageScene& s) { return evaluateKeptRun(s, std::make_shared<const OpenLevel>(s, n)); });
         add("build_level", scene, ofCells, {}, [n](const StageScene& s) { return buildLevelRun(s, n); });
     }
     std::size_t triangles = makeBuiltinScene(scene).triangles.size();

@@ -64,7 +64,7 @@ MovingLightingSettings smallCascades(const Scene& scene) {
 }
 
 // Away by a million cells and back, frame by frame, with steps of time of seven orders of magnitude: the light of a camera that stayed.
-std::vector<StressFigure> jumps(const StressSettings& settings) {
+std::vector<StressFigure> farJumps(const StressSettings& settings) {
     const Hall hall(settings);
     const MovingLightingSettings cascades = smallCascades(hall.scene);
     MovingLighting moved = hall.lighting(cascades, settings), stayed = hall.lighting(cascades, settings);
@@ -106,7 +106,7 @@ std::vector<StressFigure> badCameras(const StressSettings& settings) {
 }  // namespace
 
 std::vector<StressCase> movingCases() {
-    return {{"moving", "a camera that moves a million cells a frame, and back", "all is finite, and the light comes back", jumps},
+    return {{"moving", "a camera that moves a million cells a frame, and back", "all is finite, and the light comes back", farJumps},
             {"moving", "cameras of NaN, infinite and out of reach", "each is refused in words", badCameras}};
 }
 
