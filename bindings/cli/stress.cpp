@@ -92,7 +92,7 @@ private:
 void addStressCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("stress", "Try stiff and extreme cases; fails where one does not hold");
     auto options = std::make_shared<StressCommand>();
-    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays, ten million triangles and more: minutes in place of ten seconds");
+    command->add_flag("--exhaustive", options->exhaustive, "A hundred million rays, ten million triangles and more: minutes in place of a quarter of one");
     command->add_option("--only", options->only, "Cases of this group, or with this in their name");
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });

@@ -18,6 +18,12 @@ constexpr double kAlbedo = 0.5;
 
 double secondsSince(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 
+StressFigure mostMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return {"most memory of the process so far, GiB", double(usage.ru_maxrss) / 1048576.0};
+}
+
 // A lamp of 1 W/sr in a closed room: its map must hold what the walls send on, whatever its size, and rays must be drawn from it.
 std::vector<StressFigure> map(int side, double mostError, const StressSettings& settings) {
     SceneBuilder builder("room");
@@ -44,7 +50,8 @@ std::vector<StressFigure> map(int side, double mostError, const StressSettings& 
     return {{"rays that are not finite", bad, 0.0},
             {"flux of the map, off by", std::abs(sampler.totalFlux() / (3.0 * exact) - 1.0), mostError},
             {"flux of its rays, off by", std::abs(flux / exact - 1.0), mostError},
-            {"s", secondsSince(start)}};
+            {"s", secondsSince(start)},
+            mostMemory()};
 }
 
 // Hills of 2 * steps^2 triangles, 100 m across, under a sun.
@@ -79,13 +86,11 @@ std::vector<StressFigure> hills(int steps, const StressSettings& settings) {
     lightPoints(scene, options, settings.seed, settings.parallelFor, points, irradiance);
     double bad = 0.0, mean = 0.0;
     for (const glm::vec3& e : irradiance) bad += !std::isfinite(e.x) || e.x < 0.0f, mean += double(e.x) / double(points.size());
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
     return {{"triangles", double(scene.triangles.size())},
             {"irradiances that are not finite, or below 0", bad, 0.0},
             {"darkness", mean > 0.0 ? 0.0 : 1.0, 0.0},
             {"s", secondsSince(start)},
-            {"most memory of the process so far, GiB", double(usage.ru_maxrss) / 1048576.0}};
+            mostMemory()};
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ struct ClvRay {         // 48 bytes, the same in C++, GLSL and HLSL
     float maxDistance;  // m, >= 0; kClvFar until traced, then the distance to the first hit; 0 for a ray that is dead
     vec3 direction;     // unit length, the way the light travels
     float dynamicity;   // [0, 1], from the light that emitted it
-    vec3 flux;          // W, linear RGB
+    vec3 flux;          // W, linear RGB; what a level cannot add up is cut off, see clvMostFlux
     float pad0;
 };
 
