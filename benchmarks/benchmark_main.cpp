@@ -16,16 +16,17 @@ public:
     void ReportRuns(const std::vector<Run>& runs) override {
         shown_->ReportRuns(runs);
         for (const Run& run : runs) {
-            if (run.error_occurred || (run.run_type == Run::RT_Aggregate && run.aggregate_name != "median")) continue;
+            const bool aggregate = run.run_type == Run::RT_Aggregate;
+            if (run.error_occurred || (aggregate && run.aggregate_name != "median")) continue;
             // Wall or device time where the benchmark asks for it: only then the name says so.
             const std::string& kind = run.run_name.time_type;
             const double time = kind.ends_with("real_time") || kind.ends_with("manual_time") ? run.GetAdjustedRealTime() : run.GetAdjustedCPUTime();
-            if (time > 0.0) runs_.push_back({run.run_name.function_name, time / benchmark::GetTimeUnitMultiplier(run.time_unit)});
+            if (time > 0.0) (aggregate ? medians_ : runs_).push_back({run.run_name.function_name, time / benchmark::GetTimeUnitMultiplier(run.time_unit)});
         }
     }
     void Finalize() override {
         std::vector<Run> exponents;
-        for (const Growth& growth : growthsOf(runs_)) {
+        for (const Growth& growth : growthsOf(runs_.empty() ? medians_ : runs_)) {
             Run& run = exponents.emplace_back();
             run.run_name.function_name = growth.name;
             run.run_type = Run::RT_Aggregate;
@@ -39,7 +40,7 @@ public:
 
 private:
     const std::unique_ptr<BenchmarkReporter> shown_{benchmark::CreateDefaultDisplayReporter()};
-    std::vector<TimedRun> runs_;
+    std::vector<TimedRun> runs_, medians_;  // the latter stand alone where the former are not asked for
 };
 
 }  // namespace

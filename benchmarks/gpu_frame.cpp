@@ -160,7 +160,7 @@ private:
         for (std::size_t i = t * kRays / kThreads; i < (t + 1) * kRays / kThreads; ++i) {
             ClvRay ray = rays_[i];
             if (ray.maxDistance > 0.0f) ray.maxDistance = c_.native.trace(ray);
-            const ClvRecord record = clvRecordOfRay(c_.layout.storage, uint(c_.layout.channels), ray, ray.direction);
+            const ClvRecord record = clvRecordOfRay(c_.layout.storage, uint(c_.layout.channels), ray, ray.direction, clvMostFlux(kClvInjectTrackLength, c_.level.volume.cellSize));
             float values[32];
             for (std::size_t k = 0; k < stride; ++k) values[k] = clvRecordValue(record, uint(c_.layout.channels), uint(k));
             for (ClvWalk walk = clvWalkBegin(c_.level.volume, ray); walk.running == 1;) {

@@ -1,7 +1,9 @@
 #include "bindings/cli/interrupt.h"
+#include "bindings/scene/importer.h"
 #include "viz/run.h"
 
 int main(int argc, char** argv) {
+    clv::startImporter();  // before there are threads
     clv::cleanUpOnInterrupt();
     return clv::runViz(argc, argv);
 }

@@ -15,10 +15,10 @@ namespace clv {
 namespace {
 
 constexpr float kShare = 0.38f, kBarRoom = 0.16f;  // of the part of the window: the inset, and the colour bar right of it
-constexpr int kTextSize = 11;
+constexpr int kPlotTextSize = 11;
 
-void setText(vtkTextProperty& text) {
-    text.SetFontSize(kTextSize);
+void setPlotText(vtkTextProperty& text) {
+    text.SetFontSize(kPlotTextSize);
     text.SetColor(0.92, 0.92, 0.92);
     text.BoldOff();
 }
@@ -27,8 +27,8 @@ void setAxis(vtkAxis& axis, const std::string& title) {
     axis.SetTitle(title);
     axis.GetPen()->SetColorF(0.92, 0.92, 0.92);
     axis.GetGridPen()->SetColorF(0.3, 0.3, 0.3);
-    setText(*axis.GetTitleProperties());
-    setText(*axis.GetLabelProperties());
+    setPlotText(*axis.GetTitleProperties());
+    setPlotText(*axis.GetLabelProperties());
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ vtkSmartPointer<vtkContextActor> actorOf(const Plot& plot, int width, int height
         line->SetColor(120, 190, 255, 255);
     }
     chart->SetTitle(plot.title);
-    setText(*chart->GetTitleProperties());
+    setPlotText(*chart->GetTitleProperties());
     setAxis(*chart->GetAxis(vtkAxis::BOTTOM), plot.xTitle);
     setAxis(*chart->GetAxis(vtkAxis::LEFT), plot.yTitle);
     chart->GetBackgroundBrush()->SetColorF(0.05, 0.05, 0.06, 0.85);

@@ -126,7 +126,7 @@ public:
         });
     }
 
-    std::size_t bytes() const override { 
+    std::size_t bytes() const override {
         return irradiance_.bytes() + distance_.bytes() + probes_.bytes() + light_.size() * sizeof(RayLight) + cages_.size() * sizeof(ProbeCage);
     }
     std::uint64_t raysTraced() const override { return traced_; }
@@ -136,19 +136,12 @@ private:
 
     template <class Body>
     void forReceivers(std::size_t count, const Body& body) const {
-        constexpr std::size_t kPiece = 256;
-        world_->parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i);
-        });
+        forPieces(*world_, count, 256, body);
     }
 
     template <class Body>
     void forProbes(const Body& body) {
-        constexpr std::size_t kPiece = 64;
-        const std::size_t probes = probes_.positions().size();
-        world_->parallelFor((probes + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t p = piece * kPiece; p < std::min(probes, (piece + 1) * kPiece); ++p) body(p);
-        });
+        forPieces(*world_, probes_.positions().size(), 64, body);
     }
 
     // The directions of the next frame's rays, the same from every probe.

@@ -125,10 +125,7 @@ public:
     }
 
     void irradiance(std::span<glm::vec3> out) override {
-        constexpr std::size_t kPiece = 256;
-        world_->parallelFor((out.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t i = piece * kPiece; i < std::min(out.size(), (piece + 1) * kPiece); ++i) out[i] = lookUp(receivers_[i]);
-        });
+        forPieces(*world_, out.size(), 256, [&](std::size_t i) { out[i] = lookUp(receivers_[i]); });
     }
 
     std::size_t bytes() const override { return injected_.bytes() + passed_.bytes() + next_.bytes() + sum_.bytes() + open_.bytes(); }
@@ -194,12 +191,8 @@ private:
 
     template <class Body>
     void forRows(const Body& body) const {
-        const std::size_t rows = std::size_t(volume_.resolution.y) * volume_.resolution.z, kPiece = 16;
-        world_->parallelFor((rows + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t row = piece * kPiece; row < std::min(rows, (piece + 1) * kPiece); ++row) {
-                body(int(row) % volume_.resolution.y, int(row) / volume_.resolution.y);
-            }
-        });
+        const std::size_t rows = std::size_t(volume_.resolution.y) * volume_.resolution.z;
+        forPieces(*world_, rows, 16, [&](std::size_t row) { body(int(row) % volume_.resolution.y, int(row) / volume_.resolution.y); });
     }
 
     // One step: what each cell gets from its six neighbours, face by face, goes on from its middle as a lobe towards that face whose

@@ -22,7 +22,6 @@ constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light
 constexpr std::size_t kPilotShare = 8;             // one ray in so many
 constexpr std::size_t kLeastPilots = 2 << 10;      // fewer show too little, and a guide costs what thousands of rays do
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
-constexpr std::size_t kPiece = LookupTable::kPiece;
 
 std::string storageName(unsigned storage) {
     const char* names[] = {"cube", "cube9", "sh1", "sh2"};
@@ -152,9 +151,7 @@ private:
 
     template <class Body>
     void forReceivers(std::size_t count, const Body& body) const {
-        world_->parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t i = piece * kPiece; i < std::min(count, (piece + 1) * kPiece); ++i) body(i);
-        });
+        forPieces(*world_, count, LookupTable::kPiece, body);
     }
 
     void build(int resolution, std::span<const ClvReceiver> readers) {

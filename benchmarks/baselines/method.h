@@ -3,6 +3,7 @@
 // All methods answer the same question: indirect irradiance after one bounce (light -> surface -> receiver), W/m^2, without any
 // ambient term, in a scene that stands still. They trace the same Embree scene on the same threads.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,11 +16,22 @@
 
 namespace clv {
 
+// Of the picture whose run time a report gives.
+inline constexpr int kPictureWidth = 1280, kPictureHeight = 720;
+
 // What methods work on; both must outlive them.
 struct MethodWorld {
     const EmbreeScene& scene;
     const ParallelFor& parallelFor;
 };
+
+// body(i) for every i in [0, count), `piece` of them in a row.
+template <class Body>
+void forPieces(const MethodWorld& world, std::size_t count, std::size_t piece, const Body& body) {
+    world.parallelFor((count + piece - 1) / piece, [&](std::size_t which) {
+        for (std::size_t i = which * piece; i < std::min(count, (which + 1) * piece); ++i) body(i);
+    });
+}
 
 // Name and value of all that sets two runs of a method apart, in a fixed order: columns of a table.
 using MethodSettings = std::vector<std::pair<std::string, std::string>>;
@@ -43,8 +55,13 @@ public:
     virtual void renderMaps() {}
     // One frame: about `rays` rays, > 0, merged with the frames since restart(). Where a method's least frame takes more, it takes more.
     virtual void frame(std::size_t rays) = 0;
-    // W/m^2, a receiver each, from the frames since restart(); 0 before the first.
+    // W/m^2 of the first out.size() receivers, from the frames since restart(); 0 before the first.
     virtual void irradiance(std::span<glm::vec3> out) = 0;
+
+    // Methods whose lookups serve several pixels of a picture each: pixels of the first camera's picture that see a surface, and the
+    // reading of all of them. 0: receivers are read one by one.
+    virtual std::size_t picturePixels() const { return 0; }
+    virtual void readPicture() {}
 
     // Whether a frame's rays serve every receiver. Where they do not, each receiver sends rays of its own, and a frame costs what its
     // receivers cost.

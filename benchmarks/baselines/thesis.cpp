@@ -55,10 +55,7 @@ public:
     void frame(std::size_t rays) override { addFrame(rays, frames_ == 0 ? 1.0f : settings_.blend); }
 
     void irradiance(std::span<glm::vec3> out) override {
-        constexpr std::size_t kPiece = 256;
-        world_->parallelFor((out.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t i = piece * kPiece; i < std::min(out.size(), (piece + 1) * kPiece); ++i) out[i] = scale_ * read(receivers_[i]);
-        });
+        forPieces(*world_, out.size(), 256, [&](std::size_t i) { out[i] = scale_ * read(receivers_[i]); });
     }
 
     std::size_t bytes() const override { return layout_.bytes(level_.slots.size()) * (partials_.size() + 1); }
@@ -71,11 +68,9 @@ private:
         rays_->trace([this](std::span<ClvRay> part) { world_->scene.trace(part); }, world_->parallelFor);
         traced_ += rays_->all().size();
         world_->parallelFor(partials_.size(), [&](std::size_t part) { inject(level_, layout_, kClvInjectThesis, rays_->part(part), partials_[part].target()); });
-        const std::size_t stride = layout_.stride(), slots = level_.slots.size(), kPiece = 2048;
-        world_->parallelFor((slots + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            for (std::size_t slot = piece * kPiece; slot < std::min(slots, (piece + 1) * kPiece); ++slot) {
-                mergeDeposits(partials_, slot, stride, 1.0f / float(rays_->all().size()), share, history_.data() + slot * stride);
-            }
+        const std::size_t stride = layout_.stride();
+        forPieces(*world_, level_.slots.size(), 2048, [&](std::size_t slot) {
+            mergeDeposits(partials_, slot, stride, 1.0f / float(rays_->all().size()), share, history_.data() + slot * stride);
         });
     }
 

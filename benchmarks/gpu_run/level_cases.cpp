@@ -36,7 +36,7 @@ StoredCase injectCase(const CpuScene& cpu, const std::string& name, const Deposi
     std::vector<double> sum(count), magnitude(count), terms(cpu.level.slots.size());
     const float largestFlux = float(cpu.sampler.totalFlux());
     for (const ClvRay& ray : rays) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, layout.frame * ray.direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, layout.frame * ray.direction, clvMostFlux(settings.rule, volume.cellSize));
         for (ClvWalk walk = clvWalkBegin(volume, ray); walk.running == 1;) {
             const ClvCrossing crossing = clvWalkStep(walk, ray.direction);
             const float middle = 0.5f * (crossing.tBegin + crossing.tEnd) * volume.cellSize;
@@ -133,7 +133,7 @@ StoredCase slicesCase(const CpuScene& cpu) {
     const std::size_t stride = std::size_t(layout.stride()), count = cpu.level.slots.size() * stride;
     std::vector<double> sure(count), most(count), lines(cpu.level.slots.size());
     for (const ClvRay& ray : rays) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, ray.direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), ray, ray.direction, clvMostFlux(kClvInjectThesis, cpu.level.volume.cellSize));
         const ClvSlices slices = clvSlicesOfRay(cpu.level.volume, ray);
         for (int s = 0; s < slices.count; ++s) {
             const int z = slices.first + s * slices.step;

@@ -8,7 +8,6 @@
 namespace clv {
 namespace {
 
-constexpr double kConfidence = 0.95;
 // Of a frame, as far as forecasts go.
 constexpr double kLeastRays = 256, kMostRays = 64.0 * (1 << 20);
 constexpr double kRayStep = 1.02;

@@ -40,11 +40,16 @@ std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string&
 }
 
 CurveLabels::CurveLabels(std::span<const Measurement> all) {
-    std::map<std::pair<std::string, std::string>, std::string> first;
+    std::map<std::string, std::size_t> rows;
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> values;
     for (const Measurement& m : all) {
-        for (const auto& [name, value] : m.settings) {
-            if (first.try_emplace({m.method, name}, value).first->second != value) telling_[m.method].insert(name);
-        }
+        ++rows[m.method];
+        for (const auto& [name, value] : m.settings) values[{m.method, name}].push_back(value);
+    }
+    for (const auto& [key, found] : values) {
+        const auto& [method, name] = key;
+        const bool everywhere = found.size() == rows[method], alike = std::ranges::count(found, found.front()) == std::ptrdiff_t(found.size());
+        if (!everywhere || !alike) telling_[method].insert(name);
     }
 }
 
@@ -55,7 +60,7 @@ std::string CurveLabels::curve(const Measurement& m) const {
     for (const auto& [name, value] : m.settings) {
         if (telling->second.contains(name)) words.push_back(name + " " + value);
     }
-    return fmt::format("{} ({})", m.method, fmt::join(words, ", "));
+    return words.empty() ? m.method : fmt::format("{} ({})", m.method, fmt::join(words, ", "));
 }
 
 std::string CurveLabels::setting(const Measurement& m) const {
@@ -74,6 +79,7 @@ Points paretoFront(const Points& points, double readers) {
     Points sorted = points, front;
     std::ranges::stable_sort(sorted, {}, [&](const Measurement* m) { return m->seconds(readers); });
     for (const Measurement* m : sorted) {
+        if (!std::isfinite(m->seconds(readers))) break;
         if (front.empty() || m->errors.relativeRmse < front.back()->errors.relativeRmse) front.push_back(m);
     }
     return front;

@@ -42,7 +42,7 @@ private:
 using Points = std::vector<const Measurement*>;
 Points pointsOf(std::span<const Curve> curves);
 
-// Those that no other beats in both time and error, by rising time; `readers` receive the light.
+// Those that no other beats in both time and error, by rising time, of those that serve so few as `readers` receivers of the light.
 Points paretoFront(const Points& points, double readers);
 
 // The one that errs least within `seconds`, or nullptr.

@@ -20,6 +20,10 @@ bool alikeButForResolution(const Measurement& a, const Measurement& b) {
     return std::ranges::equal(a.settings, b.settings, [](const auto& one, const auto& other) { return one.first == "resolution" ? other.first == "resolution" : one == other; });
 }
 
+std::string pixelsText(const Measurement& m) {
+    return m.wholePicture ? fmt::format(" at {} pixels", settingOf(m, "pixels")) : "";
+}
+
 using Filter = std::function<bool(const Measurement&)>;
 
 Points filtered(std::span<const Measurement> all, const std::string& scene, const Filter& filter) {
@@ -77,7 +81,7 @@ private:
             if (!seconds || *seconds <= bestRatio * own->seconds(pictureReaders_)) continue;
             bestRatio = *seconds / own->seconds(pictureReaders_);
             best = ratioResult("against path tracing, a picture of 1280 × 720, one frame of 64k rays: ≥ 100× faster", scene_, bestRatio, kLeast,
-                               fmt::format("at {}, read by {}", percentText(error), settingOf(*own, "lookup")));
+                               fmt::format("at {}, read by {}{}", percentText(error), settingOf(*own, "lookup"), pixelsText(*own)));
         }
         if (best) results_.push_back(*best);
     }
@@ -107,9 +111,9 @@ private:
     }
 
     void reachesWhatNeverIsReached() {
-        const Points own = points(method(kLibraryName)), rival = points(method("light_propagation"));
+        const Points own = paretoFront(points(method(kLibraryName)), pointReaders_), rival = paretoFront(points(method("light_propagation")), pointReaders_);
         if (own.empty() || rival.empty()) return;
-        const double least = paretoFront(own, pointReaders_).back()->errors.relativeRmse, theirs = paretoFront(rival, pointReaders_).back()->errors.relativeRmse;
+        const double least = own.back()->errors.relativeRmse, theirs = rival.back()->errors.relativeRmse;
         results_.push_back({"against light propagation volumes: reaches errors that they never reach", scene_,
                             fmt::format("{} against {}", percentText(least), percentText(theirs)), least < theirs});
     }
@@ -125,7 +129,7 @@ private:
         Curve longest;
         for (const Curve& curve : curvesOf(all_, scene_)) {
             const Measurement& m = *curve.points.front();
-            const bool fits = m.method == kLibraryName && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
+            const bool fits = m.method == kLibraryName && !m.wholePicture && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
             if (fits && curve.points.size() > longest.points.size()) longest = curve;
         }
         std::vector<double> rays, errors;

@@ -28,9 +28,14 @@ std::vector<Growth> growthsOf(std::span<const TimedRun> runs) {
     }
     std::vector<Growth> growths;
     for (const Sweep& sweep : sweeps) {
+        if (sweep.seconds.size() < 2) continue;
+        // A line through two values fits them always: there the repetitions alone tell how sure it is.
+        const bool each = sweep.seconds.size() == 2;
         std::vector<double> values, times;
-        for (const auto& [value, seconds] : sweep.seconds) values.push_back(value), times.push_back(median(seconds));
-        if (values.size() > 1) growths.push_back({sweep.name, fitPowerLaw(values, times)});
+        for (const auto& [value, seconds] : sweep.seconds) {
+            for (const double time : each ? seconds : std::vector{median(seconds)}) values.push_back(value), times.push_back(time);
+        }
+        growths.push_back({sweep.name, fitPowerLaw(values, times)});
     }
     return growths;
 }

@@ -19,7 +19,7 @@ struct Growth {
 };
 
 // One for each parameter that takes two values or more while the rest of the name stays the same, in the order of the runs. Runs of the
-// same name count by their median.
+// same name count by their median; where a parameter takes two values alone, each counts, so that their spread gives the interval.
 std::vector<Growth> growthsOf(std::span<const TimedRun> runs);
 
 }  // namespace clv

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/report/runner.h"
+#include "benchmarks/report/statistics.h"
 #include "benchmarks/report/text.h"
 #include "bindings/image/heat_map.h"
 
@@ -59,19 +60,25 @@ std::vector<HeatMap> heatMapsAt(double seconds, double readers, const std::vecto
         if (std::ranges::find(methods, curve.method) == methods.end()) methods.push_back(curve.method);
     }
     std::vector<ErrorPicture> pictures;
-    std::vector<float> seen;
+    std::vector<double> tops;  // below which most errors of a method lie
     for (const std::string& method : methods) {
         Points points;
         for (const Curve& curve : curves) {
             if (curve.method == method) points.insert(points.end(), curve.points.begin(), curve.points.end());
         }
         const Measurement* chosen = bestWithin(points, seconds, readers);
-        if (!chosen) chosen = paretoFront(points, readers).front();
+        if (!chosen) {
+            const Points front = paretoFront(points, readers);
+            if (front.empty()) continue;
+            chosen = front.front();
+        }
         pictures.push_back({chosen, pixelErrors(readImage(pictureFile(folder, *chosen).string()), truth)});
+        std::vector<float> seen;
         std::ranges::copy_if(pictures.back().errors, std::back_inserter(seen), [](float e) { return std::isfinite(e); });
+        tops.push_back(percentile95(seen));
     }
-    // Few errors are above, and those look alike.
-    const double top = niceCeiling(std::max(percentile95(seen), 1e-6));
+    // That of the method in the middle, so that one far off does not turn all others black. What is above looks alike.
+    const double top = niceCeiling(std::max(median(tops), 1e-6));
     std::vector<HeatMap> maps;
     for (const ErrorPicture& picture : pictures) {
         fs::path file = pictureFile(folder, *picture.measurement);

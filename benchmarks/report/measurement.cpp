@@ -31,6 +31,7 @@ std::string csvField(const nlohmann::ordered_json& value) {
 }  // namespace
 
 double Measurement::seconds(double readers) const {
+    if (wholePicture && readers < double(receivers)) return std::numeric_limits<double>::infinity();
     const double share = receivers > 0 ? readers / double(receivers) : 0.0;
     return (sharesRays ? 1.0 : share) * frameSeconds + share * lookupSeconds;
 }
@@ -70,6 +71,7 @@ nlohmann::ordered_json toJson(const Measurement& m) {
             {"frame_s_spread", m.frameSecondsSpread},
             {"lookup_s", m.lookupSeconds},
             {"receivers", m.receivers},
+            {"whole_picture", m.wholePicture},
             {"shares_rays", m.sharesRays},
             {"rays_traced", m.raysTraced},
             {"bytes", m.bytes}};
@@ -91,7 +93,7 @@ Measurement measurementFrom(const nlohmann::ordered_json& json) {
     m.frameSecondsLeast = json.at("frame_s_least");
     m.frameSecondsSpread = json.at("frame_s_spread");
     m.lookupSeconds = json.at("lookup_s");
-    m.receivers = json.at("receivers"), m.sharesRays = json.at("shares_rays");
+    m.receivers = json.at("receivers"), m.wholePicture = json.value("whole_picture", false), m.sharesRays = json.at("shares_rays");
     m.raysTraced = json.at("rays_traced"), m.bytes = json.at("bytes");
     return m;
 }

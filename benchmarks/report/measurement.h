@@ -31,12 +31,13 @@ struct Measurement {
     double frameSeconds = 0.0;      // all frames together: median of the repeats
     double frameSecondsLeast = 0.0, frameSecondsSpread = 0.0;  // the spread is that of the middle half
     double lookupSeconds = 0.0;     // reading the irradiance of all receivers once, median
-    std::uint64_t receivers = 0;
+    std::uint64_t receivers = 0;    // that were read in this time
+    bool wholePicture = false;      // they are all pixels of a picture, whose lookups serve several of them each
     bool sharesRays = true;         // else each receiver adds its share to the time of the frames
     std::uint64_t raysTraced = 0;   // all frames together
     std::size_t bytes = 0;
 
-    // Run time for so many receivers, set-up and maps apart.
+    // Run time for so many receivers, set-up and maps apart; infinite for few ones where lookups are those of a whole picture.
     double seconds(double readers) const;
 };
 

@@ -20,12 +20,13 @@ constexpr double kPictureBudgets[] = {50e-3, 100e-3, 200e-3, 500e-3, 1.0, 5.0};
 constexpr const char* kStyle = R"(
 body { font: 15px/1.45 sans-serif; margin: 2em auto; max-width: 1300px; padding: 0 1em; color: #222; }
 table { border-collapse: collapse; margin: 0.7em 0 1.5em; }
-td:first-child { white-space: nowrap; }
+td:first-child, .plots td { white-space: nowrap; }
 th, td { border-bottom: 1px solid #ddd; padding: 0.25em 0.8em; text-align: left; vertical-align: top; }
 th { border-bottom: 2px solid #888; }
 small, .note { color: #666; }
 .plots { display: flex; flex-wrap: wrap; gap: 1em; }
-figure { margin: 0; } figcaption { font-size: 90%; color: #444; }
+figure { margin: 0; max-width: 640px; } figcaption { font-size: 90%; color: #444; }
+.maps figure { max-width: 400px; }
 .key span { white-space: nowrap; margin-right: 1.3em; }
 .missed { color: #b00; }
 .wide { overflow-x: auto; font-size: 85%; }
@@ -118,7 +119,7 @@ std::string errorOverRays(const std::vector<Curve>& curves, const CurveLabels& l
 
 std::string bytesOverError(const std::vector<Curve>& curves) {
     Chart chart = curveChart(curves, errorPercent, [](const Measurement& m) { return double(m.bytes) / double(1 << 20); });
-    chart.title = "memory over error", chart.xTitle = "relative RMSE, %", chart.yTitle = "MiB held";
+    chart.equalDecades = false, chart.title = "memory over error", chart.xTitle = "relative RMSE, %", chart.yTitle = "MiB held";
     return figure(chart, "For the light and for finding it, without the scene.");
 }
 
@@ -138,6 +139,36 @@ std::string goalTable(const std::vector<Measurement>& all) {
     return text + "</table>\n";
 }
 
+std::string nanosecondsText(double nanoseconds) { return nanoseconds < 100.0 ? fmt::format("{:.1f}", nanoseconds) : groupedText(nanoseconds); }
+
+// A column of each scene: ns an item, and what it is of the machine's limit.
+std::string stageTable(const std::vector<SceneStages>& all) {
+    std::vector<std::string> head = {"stage", "an item is a", "limit"};
+    std::vector<std::string> names;
+    for (const SceneStages& stages : all) {
+        head.insert(head.end(), {escaped(stages.scene) + ", ns an item", "bytes", "of the limit"});
+        for (const StageTime& time : stages.times) {
+            if (std::ranges::find(names, time.stage) == names.end()) names.push_back(time.stage);
+        }
+    }
+    std::string text = "<table>\n" + row(head, "th");
+    for (const std::string& name : names) {
+        std::vector<std::string> cells = {escaped(name), "", ""};
+        for (const SceneStages& stages : all) {
+            const auto time = std::ranges::find(stages.times, name, &StageTime::stage);
+            if (time == stages.times.end()) {
+                cells.insert(cells.end(), {"–", "", ""});
+                continue;
+            }
+            cells[1] = escaped(time->item), cells[2] = escaped(time->limit);
+            cells.insert(cells.end(), {fmt::format("{} <small>± {}</small>", nanosecondsText(time->nanoseconds), nanosecondsText(0.5 * time->spread)), fmt::format("{:.0f}", time->bytes),
+                                       fmt::format("{:.0f} %", 100.0 * time->share)});
+        }
+        text += row(cells);
+    }
+    return text + "</table>\n";
+}
+
 std::string aboutTable(const nlohmann::ordered_json& about) {
     std::string text;
     for (const auto& [name, value] : about.items()) text += row({escaped(name), escaped(value.is_string() ? value.get<std::string>() : value.dump())});
@@ -147,7 +178,7 @@ std::string aboutTable(const nlohmann::ordered_json& about) {
 std::string fullTable(const std::vector<Measurement>& all) {
     std::string text = "<div class=\"wide\"><table>" +
                        row({"scene", "method", "rays", "frames", "relative RMSE", "± 95 %", "bias", "p95", "leak", "RMS", "PSNR", "look different", "maps", "frames' time",
-                            "spread", "lookups", fmt::format("at {:g} points", kPointReaders), fmt::format("at {:g} pixels", kPictureReaders), "set-up", "rays traced", "held"},
+                            "spread", "lookups", fmt::format("at {} points", groupedText(kPointReaders)), fmt::format("at {} pixels", groupedText(kPictureReaders)), "set-up", "rays traced", "held"},
                            "th");
     for (const Measurement& m : all) {
         text += row({escaped(m.scene), escaped(curveName(m)), countText(m.rays), std::to_string(m.frames), percentText(m.errors.relativeRmse), percentText(m.errorInterval),
@@ -161,31 +192,36 @@ std::string fullTable(const std::vector<Measurement>& all) {
 
 }  // namespace
 
-std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_json& about, const std::map<std::string, std::vector<HeatMap>>& heatMaps) {
+std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_json& about, const std::map<std::string, std::vector<HeatMap>>& heatMaps,
+                   const std::vector<SceneStages>& stages) {
     const CurveLabels labels(all);
     std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Error against run time</title>\n<style>{}</style></head><body>\n", kStyle);
     page += "<h1>Error against run time</h1>\n<h2>What a millisecond buys</h2>\n";
-    page += fmt::format("<p>The setting that errs least within a budget of run time, light and lookups at {:g} points, maps and set-up apart. "
+    page += fmt::format("<p>The setting that errs least within a budget of run time, light and lookups at {} points, maps and set-up apart. "
                         "Errors are relative RMSE of the indirect irradiance against path tracing.</p>\n",
-                        kPointReaders);
+                        groupedText(kPointReaders));
     page += budgetTable(all, labels, kPointBudgets, kPointReaders);
-    page += fmt::format("<p>The same at {:g} points, a picture of 1280 × 720:</p>\n", kPictureReaders);
+    page += fmt::format("<p>The same at {} points, a picture of {} × {}:</p>\n", groupedText(kPictureReaders), kPictureWidth, kPictureHeight);
     page += budgetTable(all, labels, kPictureBudgets, kPictureReaders);
     page += "<h2>Goals</h2>\n" + goalTable(all) + "<h2>Where this comes from</h2>\n" + aboutTable(about);
     for (const std::string& scene : scenesOf(all)) {
         const std::vector<Curve> curves = curvesOf(all, scene);
         page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(curves, labels));
-        page += errorOverTime(curves, kPointReaders, fmt::format("{}, {:g} points", scene, kPointReaders));
-        page += errorOverTime(curves, kPictureReaders, fmt::format("{}, 1280 x 720 pixels", scene));
+        page += errorOverTime(curves, kPointReaders, fmt::format("{}, {} points", scene, groupedText(kPointReaders)));
+        page += errorOverTime(curves, kPictureReaders, fmt::format("{}, {} x {} pixels", scene, kPictureWidth, kPictureHeight));
         page += errorOverRays(curves, labels) + bytesOverError(curves) + "</div>\n";
         page += fmt::format("<p class=\"note\">The truth's own standard error, {}, is in these errors.</p>\n", percentText(curves.front().points.front()->truthError));
         const auto maps = heatMaps.find(scene);
         if (maps == heatMaps.end()) continue;
-        page += fmt::format("<h3>Where the methods err within {}</h3>\n<div class=\"plots\">\n", timeText(kHeatMapBudget));
+        page += fmt::format("<h3>Where the methods err within {}</h3>\n<div class=\"plots maps\">\n", timeText(kHeatMapBudget));
         for (const HeatMap& map : maps->second)
             page += fmt::format("<figure><img alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", base64(map.png), escaped(map.title));
         page += "</div>\n";
     }
+    page += "<h2>What each stage takes</h2>\n<p>On one thread, 16,384 rays, median and half of what the middle half of the turns spans. Limits of the machine are measured in turns with the "
+            "stage: a copy of as many bytes, the same additions without the walk, or the same rays in bare Embree, one by one. How times grow with rays, resolution, "
+            "threads, cascades and triangles: <code>clv_benchmark_stages</code>.</p>\n" +
+            stageTable(stages);
     page += "<h2>All measurements</h2>\n" + fullTable(all);
     return page + "</body></html>\n";
 }

@@ -4,8 +4,10 @@
 #include "benchmarks/baselines/light_propagation.h"
 #include "benchmarks/baselines/light_volume.h"
 #include "benchmarks/baselines/path_tracing.h"
+#include "benchmarks/baselines/picture_reading.h"
 #include "benchmarks/baselines/thesis.h"
 #include "benchmarks/baselines/vulkan_volume.h"
+#include "benchmarks/report/curves.h"
 
 namespace clv {
 namespace {
@@ -33,6 +35,13 @@ MethodCase thesis(const ThesisSettings& settings, std::vector<std::uint64_t> ray
 // Traces no rays, whatever it is asked for.
 MethodCase propagation(const LightPropagationSettings& settings, std::vector<int> frames) {
     return {.make = [settings] { return makeLightPropagation(settings); }, .rays = {1}, .frames = std::move(frames)};
+}
+
+// The same for a picture, looked up at every fourth pixel across and down.
+MethodCase asPicture(const MethodCase& one) {
+    MethodCase picture = one;
+    picture.make = [make = one.make] { return makePictureReading(make(), 4); };
+    return picture;
 }
 
 void addVulkan(const std::string& device, std::initializer_list<int> resolutions, const std::vector<int>& frames, std::vector<MethodCase>& cases) {
@@ -67,6 +76,10 @@ ReportPlan quickPlan(const std::string& vulkanDevice) {
         ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16}),
         ddgi(kDdgiMean, {64 * kThousand}, {1, 4, 16}),
         ddgi({.resolution = 16, .readers = Readers::anywhere}, {256 * kThousand}, {1, 4}),
+        asPicture(lightVolume({}, {64 * kThousand, 256 * kThousand})),
+        asPicture(lightVolume({.resolution = 16, .guided = false}, {16 * kThousand, 64 * kThousand}, {1, 4, 16})),
+        asPicture(lightVolume({.resolution = 32}, {64 * kThousand}, {1, 4, 16})),
+        asPicture(ddgi({.resolution = 16}, {64 * kThousand}, {1, 4, 16})),
     };
     addVulkan(vulkanDevice, {16, 32}, {1, 4}, plan.cases);
     plan.truth = {.points = 1000, .pictureWidth = 64, .samples = 8192};
@@ -78,14 +91,23 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
     ReportPlan plan;
     plan.scenes = {"cornell", "two_rooms", "atrium", "atrium_turned"};
     const std::vector<std::uint64_t> rays = {4 * kThousand, 16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion};
-    const std::vector<int> frames = {1, 4, 16, 64};
+    const std::vector<int> frames = {1, 4, 16, 64}, fewFrames = {1, 4}, merged = {4, 16, 64};
     plan.cases = {lightVolume({}, rays), lightVolume({.guided = false}, rays), lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, rays)};
     for (const int resolution : {8, 16, 32}) plan.cases.push_back(lightVolume(quickToRead(resolution), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
     for (const int resolution : {16, 32, 64, 128}) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
     for (const int resolution : {16, 32, 64}) {
-        plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, frames));
+        plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, merged));
         plan.cases.push_back(lightVolume({.resolution = resolution, .guided = false}, {64 * kThousand}, frames));
         plan.cases.push_back(lightVolume({.resolution = resolution, .readers = Readers::anywhere}, {64 * kThousand}, frames));
+        plan.cases.push_back(asPicture(lightVolume({.resolution = resolution, .guided = false}, {16 * kThousand, 64 * kThousand}, frames)));
+    }
+    // As many rays as bring the floor out of the noise.
+    for (const int resolution : {32, 64}) {
+        plan.cases.push_back(lightVolume({.resolution = resolution}, {4 * kMillion}, {4, 16}));
+        plan.cases.back().repeats = 2;
+    }
+    for (const unsigned lookup : {kClvLookupLinearFit, kClvLookupTrilinear}) {
+        plan.cases.push_back(asPicture(lightVolume({.lookup = lookup, .guided = lookup == kClvLookupLinearFit}, {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion})));
     }
     for (const unsigned storage : {kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) plan.cases.push_back(lightVolume({.resolution = 32, .storage = storage}, rays));
     plan.cases.push_back({.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion, 16 * kMillion}});
@@ -93,18 +115,27 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
         for (const int resolution : {8, 16, 32}) {
             for (DdgiSettings settings : {DdgiSettings(), kDdgiMean}) {
                 settings.resolution = resolution, settings.readers = readers;
-                plan.cases.push_back(ddgi(settings, {64 * kThousand, 512 * kThousand}, frames));
+                plan.cases.push_back(ddgi(settings, {64 * kThousand}, frames));
+                plan.cases.push_back(ddgi(settings, {512 * kThousand}, fewFrames));
+                if (resolution == 16 && readers == Readers::surfaces) plan.cases.push_back(asPicture(ddgi(settings, {64 * kThousand}, frames)));
             }
         }
     }
     for (const int resolution : {16, 32, 64}) {
-        for (const float blend : {0.05f, 0.2f}) plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {16 * kThousand, 64 * kThousand, 512 * kThousand}, frames));
+        for (const float blend : {0.05f, 0.2f}) {
+            plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {16 * kThousand, 64 * kThousand}, frames));
+            plan.cases.push_back(thesis({.resolution = resolution, .blend = blend}, {512 * kThousand}, fewFrames));
+        }
     }
     // Light crosses the scene in about as many steps as it has cells along an axis.
     for (const int resolution : {8, 16, 32}) {
         for (const int iterations : {resolution, 2 * resolution}) plan.cases.push_back(propagation({.resolution = resolution, .iterations = iterations}, {1, 4, 16}));
     }
     addVulkan(vulkanDevice, {16, 32, 64}, {1, 4, 16}, plan.cases);
+    // Most of the time is that of the others; this library's rows are compared with each other to the percent.
+    for (MethodCase& one : plan.cases) {
+        if (one.repeats == 0 && one.make()->name() != kLibraryName) one.repeats = 4;
+    }
     plan.truth = {.points = 3000, .pictureWidth = 128, .samples = 65536};
     plan.repeats = 8;
     return plan;

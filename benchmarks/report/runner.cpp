@@ -71,13 +71,14 @@ public:
         fs::create_directory(folder_ / "pictures");
         for (const std::string& scene : plan_.scenes) {
             for (const MethodCase& one : plan_.cases) work_ += workOf(scene, one);
+            if (isAsked(scene)) work_ += truthWork();
         }
     }
 
     std::vector<Measurement> run() {
         std::vector<Measurement> all;
         for (const std::string& name : plan_.scenes) {
-            if (std::ranges::any_of(plan_.cases, [&](const MethodCase& one) { return workOf(name, one) > 0.0; })) measureScene(name);
+            if (isAsked(name)) measureScene(name);
             for (const MethodCase& one : plan_.cases) {
                 for (const Measurement& m : askedOf(name, one)) all.push_back(*file_.find(m.key));
             }
@@ -95,26 +96,37 @@ private:
                 Measurement m;
                 m.scene = scene, m.method = method->name(), m.settings = method->settings(), m.rays = rays, m.frames = frames;
                 m.key = fmt::format("{}; {}; {} rays, {} frames; {} points, {} pixels across, {} paths, {} repeats from seed {}; {}", scene, curveName(m), rays, frames,
-                                    plan_.truth.points, plan_.truth.pictureWidth, plan_.truth.samples, plan_.repeats, plan_.seed, plan_.program);
+                                    plan_.truth.points, plan_.truth.pictureWidth, plan_.truth.samples, repeatsOf(one), plan_.seed, plan_.program);
                 asked.push_back(m);
             }
         }
         return asked;
     }
+    int repeatsOf(const MethodCase& one) const { return one.repeats > 0 ? one.repeats : plan_.repeats; }
     bool isMissing(const Measurement& m) const { return !file_.find(m.key); }
     // Rays to trace, about.
     double workOf(const std::string& scene, const MethodCase& one) const {
         double rays = 0.0;
         for (const Measurement& m : askedOf(scene, one)) {
-            if (isMissing(m)) rays += (plan_.repeats + 1.0) * double(m.rays) * m.frames;
+            if (isMissing(m)) rays += (repeatsOf(one) + 1.0) * double(m.rays) * m.frames;
         }
         return rays > 0.0 ? rays + kSetupRays : 0.0;
+    }
+
+    bool isAsked(const std::string& scene) const {
+        return std::ranges::any_of(plan_.cases, [&](const MethodCase& one) { return workOf(scene, one) > 0.0; });
+    }
+    // The same of the truth, for a picture as most cameras have it.
+    double truthWork() const {
+        const double across = plan_.truth.pictureWidth, pixels = across * across * kPictureHeight / kPictureWidth;
+        return (double(plan_.truth.points) + pixels) * double(plan_.truth.samples);
     }
 
     void measureScene(const std::string& name) {
         const Scene scene = loadScene(name);
         const EmbreeScene embree(scene);
-        const SceneTruth truth = findTruth(embree, plan_.truth, folder_ / "truths", parallelFor_);
+        const SceneTruth truth = findTruth(embree, plan_.truth, folder_ / "truths", parallelFor_, [&](double share) { onProgress_((done_ + share * truthWork()) / work_); });
+        done_ += truthWork();
         writePicture(truth.irradiance, truth, truthPictureFile(folder_, plan_, name));
         for (const MethodCase& one : plan_.cases) {
             const double work = workOf(name, one);
@@ -132,7 +144,7 @@ private:
             std::vector<Measurement> some;
             std::ranges::copy_if(asked, std::back_inserter(some), [&](const Measurement& m) { return m.rays == rays && isMissing(m); });
             if (some.empty()) continue;
-            measureRays(*method, some, truth);
+            measureRays(*method, repeatsOf(one), some, truth);
             for (Measurement& m : some) {
                 m.setupSeconds = setup;
                 file_.add(m);
@@ -141,7 +153,7 @@ private:
     }
 
     // Measurements that differ by their number of frames alone.
-    void measureRays(Method& method, std::vector<Measurement>& some, const SceneTruth& truth) {
+    void measureRays(Method& method, int count, std::vector<Measurement>& some, const SceneTruth& truth) {
         std::vector<Repeats> repeats(some.size());
         std::vector<glm::vec3> irradiance(truth.receivers.size());
         const int frames = some.back().frames;
@@ -149,7 +161,7 @@ private:
         method.renderMaps();
         method.frame(some.front().rays);
         method.irradiance(irradiance);
-        for (int repeat = 0; repeat < plan_.repeats; ++repeat) {
+        for (int repeat = 0; repeat < count; ++repeat) {
             method.restart(plan_.seed + std::uint32_t(repeat));
             double maps = 0.0, light = 0.0;
             for (int frame = 1; frame <= frames; ++frame) {
@@ -160,7 +172,9 @@ private:
                 Repeats& figures = repeats[std::size_t(m - some.begin())];
                 figures.maps.push_back(maps);
                 figures.frames.push_back(light);
-                figures.lookups.push_back(StageClock::secondsOf([&] { method.irradiance(irradiance); }));
+                const auto readAll = [&] { method.irradiance(irradiance); };
+                const double lookups = StageClock::secondsOf(readAll);
+                figures.lookups.push_back(method.picturePixels() > 0 ? StageClock::secondsOf([&] { method.readPicture(); }) : lookups);
                 judge(irradiance, truth, figures);
                 if (repeat == 0) judgeOnce(method, irradiance, truth, *m);
             }
@@ -178,7 +192,8 @@ private:
     }
     void judgeOnce(const Method& method, std::span<const glm::vec3> irradiance, const SceneTruth& truth, Measurement& m) const {
         m.truthError = truth.error;
-        m.receivers = truth.receivers.size();
+        m.wholePicture = method.picturePixels() > 0;
+        m.receivers = m.wholePicture ? method.picturePixels() : truth.receivers.size();
         m.sharesRays = method.sharesRays();
         m.raysTraced = method.raysTraced();
         m.bytes = method.bytes();

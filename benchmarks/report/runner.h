@@ -17,6 +17,7 @@ struct MethodCase {
     std::function<std::unique_ptr<Method>()> make;
     std::vector<std::uint64_t> rays;   // of a frame; a measurement each
     std::vector<int> frames = {1};     // merged; rising; a measurement each, for every number of rays
+    int repeats = 0;                   // in place of the plan's, where they would take too long; 0: the plan's
 };
 
 struct ReportPlan {
@@ -29,7 +30,7 @@ struct ReportPlan {
 };
 
 // All measurements in the order of scenes, cases, rays and frames. `folder` must exist; it gets measurements.jsonl, the truths and the
-// pictures (irradiance, named after the measurement by pictureFile()). `onProgress` is told the share of the work that is done.
+// pictures (irradiance, named after the measurement by pictureFile()). `onProgress` is told the share of the work that is done, from any thread.
 // Throws InputError where a scene is none, or the folder holds something else.
 std::vector<Measurement> measureAll(const ReportPlan& plan, const std::filesystem::path& folder, const ParallelFor& parallelFor,
                                     const std::function<void(double)>& onProgress);

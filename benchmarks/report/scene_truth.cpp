@@ -1,6 +1,7 @@
 #include "benchmarks/report/scene_truth.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/checksum.h"
+#include "benchmarks/report/kept_file.h"
 #include "benchmarks/report/metrics.h"
 
 namespace clv {
@@ -30,12 +32,6 @@ std::uint64_t checksumOf(const Scene& scene, std::span<const ReferencePoint> rec
     return sum.value();
 }
 
-double relativeError(std::span<const ReferenceResult> results, double mean) {
-    double squares = 0.0;
-    for (const ReferenceResult& result : results) squares += glm::dot(glm::dvec3(result.standardError), glm::dvec3(result.standardError));
-    return relativeTo(std::sqrt(squares / (3.0 * double(std::max<std::size_t>(1, results.size())))), mean);
-}
-
 // Nothing where the file is missing or not what it should be: then the truth is found anew.
 std::optional<nlohmann::json> readCache(const fs::path& file, std::size_t receivers) {
     std::ifstream input(file, std::ios::binary);
@@ -48,18 +44,25 @@ std::optional<nlohmann::json> readCache(const fs::path& file, std::size_t receiv
 void writeCache(const fs::path& file, const SceneTruth& truth) {
     nlohmann::json values = nlohmann::json::array();
     for (const glm::vec3& e : truth.irradiance) values.insert(values.end(), {e.x, e.y, e.z});
-    const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor({{"error", truth.error}, {"irradiance", values}});
-    const fs::path unfinished = file.string() + ".unfinished";
-    std::ofstream output(unfinished, std::ios::binary);
-    output.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    output.close();
-    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", unfinished.string()));
-    fs::rename(unfinished, file);
+    std::string bytes;
+    nlohmann::json::to_cbor({{"error", truth.error}, {"irradiance", values}}, bytes);
+    keepFile(file, bytes);
 }
 
 }  // namespace
 
-SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const fs::path& folder, const ParallelFor& parallelFor) {
+double truthError(std::span<const ReferenceResult> results) {
+    double squares = 0.0;
+    std::vector<glm::vec3> truth;
+    for (const ReferenceResult& result : results) {
+        squares += glm::dot(glm::dvec3(result.standardError), glm::dvec3(result.standardError));
+        truth.push_back(result.irradiance);
+    }
+    return relativeTo(std::sqrt(squares / (3.0 * double(std::max<std::size_t>(1, results.size())))), meanIrradiance(truth));
+}
+
+SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const fs::path& folder, const ParallelFor& parallelFor,
+                     const std::function<void(double)>& onProgress) {
     SceneTruth truth;
     for (const ClvReceiver& r : visiblePoints(scene, settings.points, kPointSeed)) truth.receivers.push_back({r.position, r.normal});
     truth.points = truth.receivers.size();
@@ -78,9 +81,16 @@ SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, co
         return truth;
     }
     std::vector<ReferenceResult> results(truth.receivers.size());
-    referenceIrradiance(scene, truth.receivers, {.samplesPerPoint = settings.samples}, parallelFor, results);
+    const ParallelFor watched = [&](std::size_t count, const std::function<void(std::size_t)>& body) {
+        std::atomic<std::size_t> done = 0;
+        parallelFor(count, [&](std::size_t i) {
+            body(i);
+            onProgress(double(++done) / double(count));
+        });
+    };
+    referenceIrradiance(scene, truth.receivers, {.samplesPerPoint = settings.samples}, watched, results);
     for (const ReferenceResult& result : results) truth.irradiance.push_back(result.irradiance);
-    truth.error = relativeError(std::span(results).first(truth.points), meanIrradiance(truth.atPoints(truth.irradiance)));
+    truth.error = truthError(std::span(results).first(truth.points));
     writeCache(file, truth);
     return truth;
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,12 @@ struct SceneTruth {
     std::span<const glm::vec3> inPicture(std::span<const glm::vec3> all) const { return all.subspan(points); }
 };
 
+// Standard error of path-traced results, relative to their mean.
+double truthError(std::span<const ReferenceResult> results);
+
 // Kept in a file of `folder`, which must exist, and read from there the next time.
-SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const std::filesystem::path& folder, const ParallelFor& parallelFor);
+// `onProgress` is told the share of it that is done, from any thread.
+SceneTruth findTruth(const EmbreeScene& scene, const TruthSettings& settings, const std::filesystem::path& folder, const ParallelFor& parallelFor,
+                     const std::function<void(double)>& onProgress = [](double) {});
 
 }  // namespace clv

@@ -9,8 +9,6 @@
 namespace clv {
 namespace {
 
-constexpr double kConfidence = 0.95;
-
 // Probability that |t| <= x (Abramowitz and Stegun 1964, equations 26.7.3 and 26.7.4).
 double studentWithin(double x, int degrees) {
     const double angle = std::atan(x / std::sqrt(double(degrees))), sine = std::sin(angle), cosine = std::cos(angle);

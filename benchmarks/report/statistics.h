@@ -5,6 +5,9 @@
 
 namespace clv {
 
+// Of the intervals that are stated.
+inline constexpr double kConfidence = 0.95;
+
 // 0 for no values; the upper of the two in the middle.
 double median(std::vector<double> values);
 

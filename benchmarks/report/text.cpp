@@ -25,6 +25,12 @@ std::string countText(std::uint64_t count) {
     return std::to_string(count);
 }
 
+std::string groupedText(double count) {
+    std::string text = fmt::format("{:.0f}", count);
+    for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
+    return text;
+}
+
 std::string bytesText(std::size_t bytes) {
     if (bytes < 1u << 20) return fmt::format("{:.1f} KiB", double(bytes) / double(1u << 10));
     return fmt::format("{:.1f} MiB", double(bytes) / double(1u << 20));

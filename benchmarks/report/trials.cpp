@@ -13,9 +13,8 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kPoints = 1000;
 constexpr std::uint64_t kTruthSamples = 2048;
-constexpr std::uint32_t kPointSeed = 7;
+constexpr std::uint32_t kTrialPointSeed = 7;
 constexpr double kFewRays = 16 << 10, kTrialRays = 64 << 10;  // both enough for rays to be guided
 constexpr int kTrialRepeats = 5;
 // Of calibration: scenes of several kinds, none of them alike, and frames beside those of the trials.
@@ -26,17 +25,13 @@ constexpr int kOutcomeRepeats = 3;
 
 }  // namespace
 
-TrialScene::TrialScene(const EmbreeScene& scene_, double readers_, const ParallelFor& parallelFor_) : scene(scene_), readers(readers_), parallelFor(parallelFor_) {
-    for (const ClvReceiver& r : visiblePoints(scene, kPoints, kPointSeed)) points.push_back({r.position, r.normal});
+TrialScene::TrialScene(const EmbreeScene& scene_, double readers_, const ParallelFor& parallelFor_, std::size_t count) : scene(scene_), readers(readers_), parallelFor(parallelFor_) {
+    for (const ClvReceiver& r : visiblePoints(scene, count, kTrialPointSeed)) points.push_back({r.position, r.normal});
     if (points.empty()) throw InputError(scene.scene().name + ": its cameras see nothing; expected points to measure at");
     std::vector<ReferenceResult> results(points.size());
     referenceIrradiance(scene, points, {.samplesPerPoint = kTruthSamples}, parallelFor, results);
-    double squares = 0.0;
-    for (const ReferenceResult& result : results) {
-        truth.push_back(result.irradiance);
-        squares += glm::dot(result.standardError, result.standardError) / (3.0 * double(points.size()));
-    }
-    truthError = relativeTo(std::sqrt(squares), meanIrradiance(truth));
+    for (const ReferenceResult& result : results) truth.push_back(result.irradiance);
+    truthError = clv::truthError(results);
 }
 
 struct TrialRun::Frames {

@@ -10,9 +10,11 @@
 
 namespace clv {
 
+inline constexpr std::size_t kTrialPoints = 1000;
+
 // Points with a path-traced truth, and the number of readers that times are for.
 struct TrialScene {
-    TrialScene(const EmbreeScene& scene, double readers, const ParallelFor& parallelFor);
+    TrialScene(const EmbreeScene& scene, double readers, const ParallelFor& parallelFor, std::size_t points = kTrialPoints);
 
     const EmbreeScene& scene;
     const double readers;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kRays = 64 << 10;
 constexpr int kCells = 32;
+// For the interval where the machine has two threads.
+constexpr int kRepetitions = 5;
 
 int mostThreads() { return std::max(1, int(std::thread::hardware_concurrency())); }
 
@@ -64,8 +66,9 @@ void overCascades(benchmark::State& state, const StageScene& s, int count, int m
             const std::string name = "frame/" + scene + "/" + parameter + ":" + std::to_string(value);
             return benchmark::RegisterBenchmark(name.c_str(), [scene, body](benchmark::State& state) { body(state, stageScene(scene, kRays, 0)); })->Unit(benchmark::kMillisecond);
         };
-        for (int threads = 1; threads <= mostThreads(); threads *= 2) {
-            add("threads", threads, [threads](benchmark::State& state, const StageScene& s) { overThreads(state, s, threads); })->UseRealTime();
+        for (int threads = 1; threads < 2 * mostThreads(); threads *= 2) {
+            const int count = std::min(threads, mostThreads());
+            add("threads", count, [count](benchmark::State& state, const StageScene& s) { overThreads(state, s, count); })->UseRealTime()->Repetitions(kRepetitions);
         }
         constexpr int kMost = 4;
         for (int count = 1; count <= kMost; ++count) {

@@ -56,13 +56,13 @@ PipelineReport bakeMotion(const Scene& scene, const Motion& motion, const LightO
     if (follows && !(motion.camera && scene.cameras.empty())) still = chooseCamera(scene, cascades.camera);
     const auto cameraOf = [&](std::uint32_t frame) { return cameraAt(motion, scene, still, frame); };
 
+    const CascadeDesc desc = follows ? cascadesAround(scene, cameraOf(0), cascades.count, options.resolution, cascades.cellSize) : gridOver(scene, options.resolution);
     moving.lights = lightsAt(motion, scene, 0);
-    LightHeed heed = heedLights(*embree, parallelFor);
+    LightHeed heed = heedLights(*embree, float(desc.finestCellSize), parallelFor);
     if (heed.insideOut) {
         turnFaces(moving);
         embree.emplace(moving);
     }
-    const CascadeDesc desc = follows ? cascadesAround(scene, cameraOf(0), cascades.count, options.resolution, cascades.cellSize) : gridOver(scene, options.resolution);
     MovingLight light(*embree, {.cascades = desc, .storage = options.storage, .rays = std::size_t(options.rays), .seed = seed}, parallelFor);
     BakedVolume volume = describe(scene, seed, light.layout());
     Progress progress("light");

@@ -10,7 +10,6 @@ namespace clv {
 namespace {
 
 constexpr std::size_t kFirstRound = 64 << 10;      // rays
-constexpr std::size_t kLargestRound = 512 << 10;   // rays
 constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
 constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
 
@@ -93,7 +92,7 @@ void FirstBounce::run(const AfterRound& afterRound) {
         if (afterRound) afterRound(pass);
         if (options.seconds > 0.0 && now + (now - before) > timeForThis) break;
         progress.update(options.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
-        if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestRound : std::min(2 * round, kLargestRound);
+        if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestShot : std::min(2 * round, kLargestShot);
     }
     for (const LitLevel& level : levels_) {
         job_.report.bytes += level.light->bytes(), job_.report.slots += level.light->level().slots.size();

@@ -11,7 +11,6 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kLargestRound = 512 << 10;   // rays
 constexpr int kMostSweeps = 24;                    // bounces
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left to the extrapolation
 // Rays of all further bounces from which on they get the second and the third of kResolutions.
@@ -50,7 +49,7 @@ public:
             }
             const glm::dvec3 next = shoot(target, count);
             job_.report.sweeps = std::uint32_t(sweep);
-            ratio_ = total(next) / total(power_);
+            job_.report.contraction = ratio_ = total(next) / total(power_);
             // Behind the last sweep every further one has about the same shape, fainter by the ratio: a geometric series.
             const bool last = sweep == kMostSweeps || total(next) < kNegligible * (1.0 - std::min(ratio_, 0.999)) * first_;
             if (last && ratio_ >= kLargestRatio) warnOfNoLimit(sweep);
@@ -105,7 +104,7 @@ private:
         level->reset();
         glm::dvec3 on(0.0);
         for (std::size_t done = 0; done < count;) {
-            const std::size_t rays = target.lighting->shoot(std::min(count - done, kLargestRound), {&level, 1});
+            const std::size_t rays = target.lighting->shoot(std::min(count - done, kLargestShot), {&level, 1});
             on = (on * double(done) + target.lighting->sent().on * double(rays)) / double(done + rays);
             done += rays;
             job_.report.rays += rays;

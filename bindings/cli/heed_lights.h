@@ -13,7 +13,8 @@ struct LightHeed {
     bool insideOut = false;  // all faces are to be turned around
 };
 
-// What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out.
-LightHeed heedLights(const EmbreeScene& scene, const ParallelFor& parallelFor);
+// What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out. cellSize: m, of the cells that
+// take the light.
+LightHeed heedLights(const EmbreeScene& scene, float cellSize, const ParallelFor& parallelFor);
 
 }  // namespace clv

@@ -60,7 +60,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
 }
 
 void LightJob::heedLights() {
-    const LightHeed heed = clv::heedLights(*embree_, parallelFor);
+    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, options.resolution > 0 ? options.resolution : kResolutions[0], options).cellSize, parallelFor);
     report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
     if (!heed.insideOut) return;
     turned_ = scene;

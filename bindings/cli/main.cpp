@@ -1,7 +1,9 @@
 #include "bindings/cli/command_line.h"
 #include "bindings/cli/interrupt.h"
+#include "bindings/scene/importer.h"
 
 int main(int argc, char** argv) {
+    clv::startImporter();  // before there are threads
     clv::cleanUpOnInterrupt();
     return clv::runCommandLine(argc, argv);
 }

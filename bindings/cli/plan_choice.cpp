@@ -1,70 +1,32 @@
 #include "bindings/cli/plan_choice.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "benchmarks/report/provenance.h"
-#include "benchmarks/report/trials.h"
+#include "bindings/cli/model_cache.h"
 #include "bindings/cli/progress.h"
-#include "bindings/cli/staged_output.h"
 
 namespace clv {
 namespace {
 
-namespace fs = std::filesystem;
-constexpr int kVerifyRepeats = 9;
-
-// As the XDG base directory specification has it; empty where there is no home.
-fs::path cacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache && *cache) return fs::path(cache) / "clv";
-    const char* home = std::getenv("HOME");
-    return home && *home ? fs::path(home) / ".cache" / "clv" : fs::path();
-}
-
-// All that measurements of the model depend on.
-nlohmann::json modelKey(const ChoiceOptions& options, const CommonOptions& common) {
-    return {{"program", programChecksum()}, {"processor", provenance().at("processor")}, {"threads", threadCount(common)}, {"readers", options.readers}};
-}
-
-std::optional<CostModel> readModel(const fs::path& file, const nlohmann::json& key) {
-    std::ifstream input(file, std::ios::binary);
-    const nlohmann::json kept = nlohmann::json::parse(input, nullptr, false);
-    try {
-        if (kept.at("key") == key) return CostModel::fromJson(kept.at("model"));
-    } catch (const nlohmann::json::exception&) {
-        // A file that is missing or damaged: the model is made anew.
-    }
-    return {};
-}
-
-// What cannot be kept is made again the next time.
-void keepModel(const fs::path& file, const nlohmann::json& key, const CostModel& model) {
-    try {
-        fs::create_directories(file.parent_path());
-        StagedFile output(file);
-        std::ofstream(output.path(), std::ios::binary) << nlohmann::json{{"key", key}, {"model", model.toJson()}}.dump(2) << "\n";
-        output.commit();
-    } catch (const std::runtime_error& error) {
-        fmt::print(stderr, "clv: the model of this machine is not kept: {}\n", error.what());
-    }
-}
+constexpr int kVerifyRepeats = 9, kMostPoints = 1 << 20;
 
 CostModel modelOfThisMachine(const ChoiceOptions& options, const CommonOptions& common, const ParallelFor& parallelFor, Report& report) {
-    const fs::path folder = cacheFolder(), file = folder / "cost_model.json";
-    const nlohmann::json key = modelKey(options, common);
-    std::optional<CostModel> model = folder.empty() ? std::nullopt : readModel(file, key);
+    const ModelCache cache(userCacheFolder());
+    const nlohmann::json key = modelKey(threadCount(common), options.readers);
+    std::optional<CostModel> model = cache.find(key);
     report["model"] = model ? "kept from an earlier run" : "made now";
     if (!model) {
         Progress progress("measuring this machine");
         model = calibrate(options.readers, parallelFor, [&](double share) { progress.update(share); });
-        if (!folder.empty()) keepModel(file, key, *model);
+        try {
+            cache.keep(key, *model);
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "clv: the model of this machine is not kept: {}\n", error.what());
+        }
     }
     return *model;
 }
@@ -84,13 +46,14 @@ void addChoiceOptions(CLI::App& command, ChoiceOptions& options) {
     auto* budget = addPositiveOption(command, "--budget-ms", options.budgetMs, "Choose what errs least within this run time of a frame, ms");
     addPositiveOption(command, "--target-error", options.targetError, "Choose the fastest that errs at most so much (relative RMSE; 0.1 is 10 %)")->excludes(budget);
     addPositiveOption(command, "--readers", options.readers, "Points that receive the light; their lookups are in the time")->capture_default_str();
+    command.add_option("--points", options.points, "Points where the scene's errors are measured, to foretell them and to compare")->check(CLI::Range(1, kMostPoints))->capture_default_str();
     command.add_flag("--promise-only", options.promiseOnly, "Do not run the choice to compare it with the promise");
 }
 
 void chooseSetting(const Scene& scene, std::span<const int> resolutions, const ChoiceOptions& options, const CommonOptions& common, Report& report) {
     const ParallelFor parallelFor = parallelForOf(common);
     const EmbreeScene embree(scene);
-    const TrialScene world(embree, options.readers, parallelFor);
+    const TrialScene world(embree, options.readers, parallelFor, options.points);
     const CostModel model = modelOfThisMachine(options, common, parallelFor, report);
     std::map<int, std::unique_ptr<TrialRun>> runs;
     std::vector<Trial> trials;

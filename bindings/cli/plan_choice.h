@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "benchmarks/report/trials.h"
 #include "bindings/cli/options.h"
 
 namespace clv {
@@ -10,6 +11,7 @@ struct ChoiceOptions {
     double budgetMs = 0.0;     // run time of a frame, ms; 0: not set
     double targetError = 0.0;  // relative RMSE; 0: not set
     double readers = 3000.0;   // points that receive the light: their lookups are in the time
+    std::size_t points = kTrialPoints;  // where errors are measured
     bool promiseOnly = false;  // do not run it
 
     bool asked() const { return budgetMs > 0.0 || targetError > 0.0; }

@@ -100,6 +100,8 @@ struct ReportCommand {
         StagedOutput output(folder);
         Progress progress("report");
         const std::vector<Measurement> all = measureAll(plan, folder, parallelForOf(common), [&](double share) { progress.update(share); });
+        Progress stageProgress("stages");
+        const std::vector<SceneStages> stages = measureStages(plan.scenes, plan.program, folder, [&](double share) { stageProgress.update(share); });
         report.update(provenance());
         report["command_line"] = commandLine();
         report["vulkan"] = vulkan.name.empty() ? "not measured: " + vulkan.whyNone : vulkan.name;
@@ -107,10 +109,12 @@ struct ReportCommand {
         std::map<std::string, std::vector<HeatMap>> heatMaps;
         for (const std::string& scene : plan.scenes)
             heatMaps[scene] = heatMapsAt(kHeatMapBudget, kPointReaders, curvesOf(all, scene), labels, truthPictureFile(folder, plan, scene), folder);
-        writeText(output.path("report.html"), htmlOf(all, report, heatMaps));
+        writeText(output.path("report.html"), htmlOf(all, report, heatMaps, stages));
         Report file = report;
         file["measurements"] = Report::array();
         for (const Measurement& m : all) file["measurements"].push_back(toJson(m));
+        file["stages"] = Report::array();
+        for (const SceneStages& one : stages) file["stages"].push_back(toJson(one));
         writeText(output.path("report.csv"), csvOf(all));
         writeText(output.path("report.json"), file.dump(2, ' ', false, Report::error_handler_t::replace) + "\n");
         output.commit();

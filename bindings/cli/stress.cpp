@@ -14,7 +14,7 @@ namespace clv {
 
 std::vector<StressCase> stressCases() {
     std::vector<StressCase> all;
-    for (auto group : {historyCases, walkCases, fluxCases, gridCases, propertyCases, precisionCases, bounceCases, brightnessCases, sceneCases, extremeCases}) {
+    for (auto group : {historyCases, walkCases, fluxCases, gridCases, propertyCases, precisionCases, bounceCases, brightnessCases, sceneCases, tailCases, movingCases, extremeCases}) {
         for (StressCase& one : group()) all.push_back(std::move(one));
     }
     return all;

@@ -2,8 +2,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "bindings/scene/import_gltf.h"
-#include "bindings/scene/import_obj.h"
+#include "bindings/scene/importer.h"
 #include "bindings/scene/scene.h"
 
 namespace clv {
@@ -11,8 +10,7 @@ namespace clv {
 Scene loadScene(const std::string& fileOrName) {
     std::string extension = std::filesystem::path(fileOrName).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    if (extension == ".glb" || extension == ".gltf") return importGltf(fileOrName);
-    if (extension == ".obj") return importObj(fileOrName);
+    if (extension == ".glb" || extension == ".gltf" || extension == ".obj") return importScene(fileOrName);
     return makeBuiltinScene(fileOrName);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125;  // glTF component types
+constexpr int kComponentFloat = 5126, kComponentUint = 5125;  // glTF component types
 
 json jsonFrom(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -132,12 +132,12 @@ json GlbWriter::primitiveOf(std::uint32_t material, const std::vector<std::uint3
         lo = glm::min(lo, position);
         hi = glm::max(hi, position);
     }
-    const std::size_t position = addAccessor(positions, kFloat, "VEC3", positions.size());
+    const std::size_t position = addAccessor(positions, kComponentFloat, "VEC3", positions.size());
     document_["accessors"][position]["min"] = jsonFrom(lo);
     document_["accessors"][position]["max"] = jsonFrom(hi);
     json primitive = {{"material", material}, {"attributes", {{"POSITION", position}}}};
-    if (!uvs.empty()) primitive["attributes"]["TEXCOORD_0"] = addAccessor(uvs, kFloat, "VEC2", uvs.size());
-    primitive["indices"] = addAccessor(indices, kUnsignedInt, "SCALAR", indices.size());
+    if (!uvs.empty()) primitive["attributes"]["TEXCOORD_0"] = addAccessor(uvs, kComponentFloat, "VEC2", uvs.size());
+    primitive["indices"] = addAccessor(indices, kComponentUint, "SCALAR", indices.size());
     return primitive;
 }
 

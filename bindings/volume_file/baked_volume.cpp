@@ -1,6 +1,7 @@
 #include "bindings/volume_file/baked_volume.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace clv {
 namespace {
@@ -79,7 +80,7 @@ CellLight cellLight(const BakedVolume& volume, const BakedCascade& cascade, std:
         if (cascade.estimates.size() < 2) continue;
         const vec3 half = 0.5f * (estimate[0] - estimate[1]);
         light.irradiance[side] = 0.5f * (estimate[0] + estimate[1]);
-        light.variance[side] = dot(half, half) / 3.0f;
+        light.variance[side] = std::min(dot(half, half) / 3.0f, std::numeric_limits<float>::max());
     }
     return light;
 }

@@ -1,5 +1,6 @@
 #include "bindings/volume_file/sealed_file.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -22,7 +23,7 @@ std::string sealOf(std::uint64_t checksum) {
 // differ in a single word never share a checksum.
 std::uint64_t checksumOf(std::ifstream& in, std::uintmax_t count) {
     std::uint64_t sum = 0xcbf29ce484222325u;
-    std::vector<char> block(1 << 20);
+    std::vector<char> block(std::size_t(std::min<std::uintmax_t>((count + 7) / 8 * 8, 1 << 20)));
     while (count > 0 && in) {
         const std::size_t size = std::size_t(std::min<std::uintmax_t>(count, block.size()));
         std::fill_n(block.begin() + std::ptrdiff_t(size), size % 8 == 0 ? 0 : 8 - size % 8, '\0');

@@ -14,12 +14,12 @@ using Type = vk::AccelerationStructureTypeKHR;
 constexpr vk::DeviceSize kAlignment = 256;  // of a structure in its buffer, as Vulkan wants it
 
 // What a level is built from; a size is asked for with addresses that are null.
-struct Level {
+struct BuildLevel {
     vk::AccelerationStructureGeometryKHR geometry;
     vk::AccelerationStructureBuildGeometryInfoKHR build;
     vk::AccelerationStructureBuildRangeInfoKHR range;
 
-    Level(Type type, const vk::AccelerationStructureGeometryKHR& of, std::uint64_t primitives) : geometry(of), range(std::uint32_t(primitives)) {
+    BuildLevel(Type type, const vk::AccelerationStructureGeometryKHR& of, std::uint64_t primitives) : geometry(of), range(std::uint32_t(primitives)) {
         build.type = type;
         build.flags = vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace;
         build.mode = vk::BuildAccelerationStructureModeKHR::eBuild;
@@ -27,16 +27,16 @@ struct Level {
     const vk::AccelerationStructureBuildGeometryInfoKHR& info() { return build.setGeometries(geometry); }
 };
 
-Level triangleLevel(std::uint64_t triangles, vk::DeviceAddress corners) {
+BuildLevel triangleLevel(std::uint64_t triangles, vk::DeviceAddress corners) {
     const vk::AccelerationStructureGeometryTrianglesDataKHR data(vk::Format::eR32G32B32Sfloat, corners, kFrameCornerBytes / 3, std::uint32_t(3 * triangles - 1), vk::IndexType::eNoneKHR);
     return {Type::eBottomLevel, {vk::GeometryTypeKHR::eTriangles, data, vk::GeometryFlagBitsKHR::eOpaque}, triangles};
 }
 
-Level instanceLevel(vk::DeviceAddress instances) {
+BuildLevel instanceLevel(vk::DeviceAddress instances) {
     return {Type::eTopLevel, {vk::GeometryTypeKHR::eInstances, vk::AccelerationStructureGeometryInstancesDataKHR(false, instances), vk::GeometryFlagBitsKHR::eOpaque}, 1};
 }
 
-vk::AccelerationStructureBuildSizesInfoKHR sizesOf(const VulkanDevice::Impl& device, Level level) {
+vk::AccelerationStructureBuildSizesInfoKHR sizesOf(const VulkanDevice::Impl& device, BuildLevel level) {
     return device.device.getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice, level.info(), level.range.primitiveCount);
 }
 
@@ -77,7 +77,7 @@ void recordBuild(const VulkanDevice::Impl& device, const vk::raii::CommandBuffer
     using Access = vk::AccessFlagBits;
     const VulkanAccelerationSizes sizes = accelerationSizes(device, triangles);
     const vk::DeviceAddress memory = addressOf(device, buffer);
-    const auto build = [&](Level level, vk::AccelerationStructureKHR into) {
+    const auto build = [&](BuildLevel level, vk::AccelerationStructureKHR into) {
         level.build.setDstAccelerationStructure(into).setScratchData(memory + sizes.scratchOffset);
         commands.buildAccelerationStructuresKHR(level.info(), &level.range);
     };

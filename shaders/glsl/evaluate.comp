@@ -31,5 +31,5 @@ void main() {
     for (uint k = receiver == 0u ? 0u : ends[receiver - 1u]; k < ends[receiver]; ++k) {
         sum += clvReadRecord(firstSlot + slots[k], storage, channels, stride, read) * weights[k];
     }
-    irradiance[i] = vec4(max(sum, vec3(0.0)), 0.0);
+    irradiance[i] = vec4(clvIrradianceFromSum(sum), 0.0);
 }

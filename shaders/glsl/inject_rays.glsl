@@ -25,7 +25,7 @@ void main() {
     if (i >= frame.rayCount) return;
     uint halfIndex = i / (frame.rayCount / frame.halves);
     ClvRay ray = rays[i];
-    ClvRecord record = clvRecordOfRay(storage, channels, ray, clvKeptDirection(frame, turned, ray.direction));
+    ClvRecord record = clvRecordOfRay(storage, channels, ray, clvKeptDirection(frame, turned, ray.direction), clvMostFlux(rule, level.volume.cellSize));
     uint values = clvCoefficientCount(storage) * channels;
     ClvWalk walk = clvWalkBegin(level.volume, ray);
     while (walk.running == 1) {

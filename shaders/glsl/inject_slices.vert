@@ -21,5 +21,5 @@ void main() {
     ClvSlicePiece piece = clvSlicePiece(level.volume, ray, int(layer % uint(level.volume.resolution.z)));
     gl_Position = clvSlicePosition(level.volume, clvLineVertex(piece, uint(gl_VertexIndex) % 2u));
     keptDirection = vec4(clvKeptDirection(frame, turned, ray.direction), 0.0);
-    flux = vec4(clvChannelFlux(channels, ray), ray.dynamicity);
+    flux = vec4(clvChannelFlux(channels, ray, clvMostFlux(kClvInjectThesis, level.volume.cellSize)), ray.dynamicity);
 }

@@ -19,7 +19,7 @@ void main(uint3 thread : SV_DispatchThreadID) {
     uint i = clvItem(thread);
     if (i >= frame.rayCount) return;
     ClvRay ray = rays[i];
-    if (!(ray.dynamicity > 0.0) || !clvIsFinite(ray.flux)) return;
+    if (!(ray.dynamicity > 0.0) || !clvCarriesLight(ray)) return;
     uint halfIndex = i / (frame.rayCount / frame.halves);
     ClvCoefficients sides = clvDepositCoefficients(kClvStorageCube, clvKeptDirection(frame, turned, ray.direction));
     ClvWalk walk = clvWalkBegin(level.volume, ray);

@@ -28,5 +28,5 @@ void main(uint3 thread : SV_DispatchThreadID) {
     for (uint k = receiver == 0u ? 0u : ends[receiver - 1u]; k < ends[receiver]; ++k) {
         sum += clvReadRecord(firstSlot + slots[k], storage, channels, stride, read) * weights[k];
     }
-    irradiance[i] = float4(max(sum, float3(0.0, 0.0, 0.0)), 0.0);
+    irradiance[i] = float4(clvIrradianceFromSum(sum), 0.0);
 }

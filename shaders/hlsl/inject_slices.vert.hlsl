@@ -24,6 +24,6 @@ Vertex main(uint vertexIndex : SV_VertexID) {
     Vertex vertex;
     vertex.position = clvSlicePosition(level.volume, clvLineVertex(piece, vertexIndex % 2u));
     vertex.keptDirection = float4(clvKeptDirection(frame, turned, ray.direction), 0.0);
-    vertex.flux = float4(clvChannelFlux(channels, ray), ray.dynamicity);
+    vertex.flux = float4(clvChannelFlux(channels, ray, clvMostFlux(kClvInjectThesis, level.volume.cellSize)), ray.dynamicity);
     return vertex;
 }

@@ -10,7 +10,7 @@
 #include "furnace/surface_points.h"
 
 namespace clv::test {
-namespace {
+namespace pipeline_test {
 
 LightOptions optionsFor(bool allBounces, std::uint64_t rays) {
     LightOptions options;
@@ -95,5 +95,5 @@ TEST(Truth, theDarkRoomStaysDarkWhereverTheGridLies) {
         }
 }
 
-}  // namespace
+}  // namespace pipeline_test
 }  // namespace clv::test

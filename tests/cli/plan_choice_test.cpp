@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/report/checksum.h"
-#include "benchmarks/report/provenance.h"
+#include "bindings/cli/model_cache.h"
 #include "cli/run_command.h"
 #include "support/temporary_folder.h"
 
@@ -24,11 +24,9 @@ protected:
         program.add(bytes);
         char text[17];
         std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(program.value()));
-        const nlohmann::json model = {
-            {"key", {{"program", text}, {"processor", provenance().at("processor")}, {"threads", 2}, {"readers", 3000.0}}},
-            {"model", {{"time_growth", 0.0}, {"noise_fall", -0.5}, {"seconds_factor", 1.5}, {"error_factor", 1.25}}}};
-        std::filesystem::create_directories(file("cache/clv"));
-        write("cache/clv/cost_model.json", model.dump());
+        nlohmann::json key = modelKey(2, 3000.0);
+        key["program"] = text;
+        ModelCache(file("cache/clv")).keep(key, CostModel::fromJson({{"time_growth", 0.0}, {"noise_fall", -0.5}, {"seconds_factor", 1.5}, {"error_factor", 1.25}}));
         setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
     }
     void TearDown() override {
@@ -36,7 +34,7 @@ protected:
         TemporaryFolder::TearDown();
     }
     static CommandResult plan(std::vector<std::string> more) {
-        std::vector<std::string> all = {"plan", "--scene", "white_sphere", "--resolution", "16", "--threads", "2", "--json"};
+        std::vector<std::string> all = {"plan", "--scene", "furnace_box", "--resolution", "16", "--points", "100", "--threads", "2", "--json"};
         all.insert(all.end(), more.begin(), more.end());
         return runCommand(all);
     }
@@ -65,6 +63,7 @@ TEST_F(PlanChoice, whatCannotBeHadIsRefusedWithWhatCan) {
     }
     EXPECT_EQ(plan({"--budget-ms", "5", "--target-error", "0.1"}).status, 2);
     EXPECT_EQ(plan({"--budget-ms", "0"}).status, 2);
+    EXPECT_EQ(plan({"--budget-ms", "5", "--points", "0"}).status, 2);
 }
 
 TEST_F(PlanChoice, aPromiseAloneRunsNothing) {

@@ -5,7 +5,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace {
+namespace point_table_test {
 
 using namespace clv;
 
@@ -92,4 +92,4 @@ TEST_F(PointTableFile, aDiskThatIsFullIsAnError) {
     EXPECT_THROW(writePointTable("/dev/full", table, {{"E_r,E_g,E_b", values}}), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace point_table_test

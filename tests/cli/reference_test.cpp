@@ -7,7 +7,7 @@
 #include "cli/run_command.h"
 #include "support/temporary_folder.h"
 
-namespace {
+namespace reference_test {
 
 using namespace clv;
 using nlohmann::json;
@@ -111,4 +111,4 @@ TEST_F(Reference, showsABarOnATerminalOnceASecondHasPassed) {
     EXPECT_EQ(shortRun.err, "");
 }
 
-}  // namespace
+}  // namespace reference_test

@@ -50,11 +50,15 @@ TEST_F(ReportCommand, writesAPageTablesAndMeasurementsOnce) {
     EXPECT_LT(report.at("measurements").back().at("relative_rmse"), report.at("measurements").front().at("relative_rmse"));
     const std::string csv = read(file("r/report.csv"));
     EXPECT_EQ(std::size_t(std::ranges::count(csv, '\n')), 1 + report.at("measurements").size());
-    EXPECT_NE(read(file("r/report.html")).find("What a millisecond buys"), std::string::npos);
+    const std::string page = read(file("r/report.html"));
+    for (const char* words : {"What a millisecond buys", "<td>trace</td><td>ray</td><td>bare Embree</td>"}) EXPECT_NE(page.find(words), std::string::npos) << words;
+    ASSERT_EQ(report.at("stages").size(), 1u);
+    EXPECT_GT(report.at("stages")[0].at("times").size(), 7u);
 
-    const std::string measured = read(file("r/measurements.jsonl"));
+    const std::string measured = read(file("r/measurements.jsonl")), stages = read(file("r/stages.json"));
     ASSERT_EQ(runCommand(arguments).status, 0);
     EXPECT_EQ(read(file("r/measurements.jsonl")), measured) << "nothing is measured twice";
+    EXPECT_EQ(read(file("r/stages.json")), stages);
     for (const std::string& name : listing("r")) EXPECT_FALSE(name.starts_with(".")) << name;
 }
 

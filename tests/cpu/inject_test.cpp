@@ -248,6 +248,41 @@ TEST(Inject, whatIsNotFiniteAddsNothingAndHarmsNoOther) {
     EXPECT_EQ(injected(level, layout, mixed), injected(level, layout, dead));
 }
 
+// Rays as bright as floats are, along a grid, a thousand a cell: sums stay numbers, whatever the storage.
+TEST(Inject, theBrightestRaysAddUpToNumbers) {
+    Level level = openLevel(8);
+    std::vector<ClvRay> rays = someRays(4000);
+    for (uint i = 0; i < rays.size(); ++i) rays[i].flux = vec3(i % 5 == 0 ? -3e38f : 3e38f), rays[i].maxDistance = 1e30f;
+    for (uint storage : kStorages) {
+        for (float cellSize : {1e-9f, 1.0f, 1e5f}) {
+            const float scale = cellSize / level.volume.cellSize;
+            level.volume.origin *= scale, level.volume.cellSize = cellSize;
+            for (ClvRay& ray : rays) ray.origin *= scale;
+            for (float value : injected(level, {storage, 3}, rays)) ASSERT_TRUE(std::isfinite(value)) << storage << ", " << cellSize;
+        }
+    }
+}
+
+// A float stops growing at 2^24 times what is added to it.
+TEST(Inject, twentyMillionRaysThroughOneCellAreAllCounted) {
+    Level level = openLevel(1);
+    const DepositLayout layout{kClvStorageCube, 1};
+    const std::vector<ClvRay> rays(20'000'000, rayOf(vec3(0.1f, 0.5f, 0.5f), vec3(1.0f, 0.0f, 0.0f), 0.5f, vec3(1.0f)));
+    AlignedFloats deposits(level.slots.size() * layout.stride(), 0.0f);
+    inject(level, layout, kClvInjectTrackLength, rays, {deposits, {}});
+    EXPECT_NEAR(deposits[1], 1e7, 1e3);
+}
+
+TEST(Inject, whatHasNoDirectionAddsNothing) {
+    const Level level = openLevel(4);
+    for (uint storage : kStorages) {
+        for (const vec3& direction : {vec3(0.0f), vec3(1e-30f, 0.0f, 0.0f), vec3(1e30f), vec3(-0.0f, 3e-45f, 0.0f)}) {
+            const std::vector<ClvRay> rays{rayOf(vec3(0.2f, 0.1f, 0.6f), direction, 1e30f, vec3(1.0f))};
+            for (float value : injected(level, {storage, 3}, rays)) ASSERT_EQ(value, 0.0f) << storage << ", " << direction.x;
+        }
+    }
+}
+
 TEST(Inject, dynamicityOfASideIsTheLargestAmongTheRaysThatLightIt) {
     const Level level = openLevel(4);
     const DepositLayout layout{kClvStorageCube9, 3};

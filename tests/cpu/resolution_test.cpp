@@ -5,7 +5,7 @@
 #include "support/chi_square.h"
 
 namespace clv::test {
-namespace {
+namespace resolution_test {
 
 constexpr std::size_t kReceivers = 20000;
 
@@ -155,5 +155,5 @@ TEST(Resolution, raysToComeFavourTheFinerLevel) {
     EXPECT_GT(chooseLevels(now.withRays(std::vector<double>(2, 1000.0)))[1], 0.9);
 }
 
-}  // namespace
+}  // namespace resolution_test
 }  // namespace clv::test

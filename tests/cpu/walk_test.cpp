@@ -11,7 +11,7 @@
 
 using namespace clv;
 
-namespace {
+namespace walk_test {
 
 const float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
@@ -273,4 +273,4 @@ TEST(Walk, everyWalkEndsWithinTheGridsDiagonal) {
     }
 }
 
-}  // namespace
+}  // namespace walk_test

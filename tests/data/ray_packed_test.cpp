@@ -10,7 +10,7 @@
 
 using namespace clv;
 
-namespace {
+namespace ray_packed_test {
 
 using Words = std::array<uint, 8>;
 
@@ -128,4 +128,4 @@ TEST(RayPacked, goldenBytesOfVersion1) {
     EXPECT_EQ(wordsOf(clvPackRay(ray)), (Words{0x3f800000u, 0xc0000000u, 0x3f000000u, 0x41000000u, 0x49247fffu, 0x80c00000u, 0x00300000u, 0x40001062u}));
 }
 
-}  // namespace
+}  // namespace ray_packed_test

@@ -66,6 +66,20 @@ TEST(Curves, readersPayForLookupsOrForRaysOfTheirOwn) {
     EXPECT_NEAR(own.seconds(1000), 110e-3, 1e-12);
 }
 
+TEST(Curves, whatReadsWholePicturesServesNoFewPoints) {
+    std::vector<Measurement> all = {made("a", 4, 0.2), made("a", 1, 0.1)};
+    all[1].wholePicture = true, all[1].receivers = 1000, all[1].lookupSeconds = 2e-3;
+    EXPECT_TRUE(std::isinf(all[1].seconds(999)));
+    EXPECT_NEAR(all[1].seconds(1000), 3e-3, 1e-12);
+    EXPECT_NEAR(all[1].seconds(2000), 5e-3, 1e-12);
+    const Points points = pointsOf(curvesOf(all, "s"));
+    EXPECT_EQ(paretoFront(points, 100), Points{&all[0]});
+    EXPECT_EQ(bestWithin(points, 1.0, 100), &all[0]);
+    EXPECT_FALSE(secondsToReach(points, 0.15, 100));
+    EXPECT_EQ(paretoFront(points, 1000), Points{&all[1]});
+    EXPECT_TRUE(measurementFrom(toJson(all[1])).wholePicture);
+}
+
 TEST(Curves, aFallWithAFloorIsFound) {
     std::vector<double> work, errors;
     for (double n = 1e3; n < 1e7; n *= 4.0) work.push_back(n), errors.push_back(std::hypot(0.03, 20.0 * std::pow(n, -0.55)));
@@ -88,6 +102,9 @@ TEST(Curves, labelsHoldTheSettingsThatTellAMethodsCurvesApart) {
     EXPECT_EQ(labels.setting(all[0]), "a (resolution 16), 64k rays");
     EXPECT_EQ(labels.setting(all[1]), "a (resolution 32), 16 frames of 1M rays");
     EXPECT_EQ(labels.curve(all[2]), "b");
+    all[1].settings = all[0].settings, all[1].settings.emplace_back("pixels", "1 in 16");
+    EXPECT_EQ(CurveLabels(all).curve(all[0]), "a") << "what another curve alone has";
+    EXPECT_EQ(CurveLabels(all).curve(all[1]), "a (pixels 1 in 16)");
     all[2].raysTraced = 0, all[2].frames = 4;
     EXPECT_EQ(labels.setting(all[2]), "b, 4 frames");
 }

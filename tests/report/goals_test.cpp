@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace goals_test {
 
 using namespace clv;
 
@@ -96,4 +96,4 @@ TEST(Goals, theThesisMustNotBeOnTheFront) {
     EXPECT_FALSE(find(faster, "thesis")->reached);
 }
 
-}  // namespace
+}  // namespace goals_test

@@ -32,10 +32,25 @@ TEST(Growth, whatStandsStillOrIsNoNumberHasNone) {
 }
 
 TEST(Growth, repetitionsCountByTheirMedian) {
-    const auto growths = growthsOf(std::vector<TimedRun>{{"frame/threads:1", 2.0}, {"frame/threads:1", 90.0}, {"frame/threads:1", 1.0}, {"frame/threads:2", 1.0}});
+    const auto growths = growthsOf(
+        std::vector<TimedRun>{{"frame/threads:1", 4.0}, {"frame/threads:1", 90.0}, {"frame/threads:1", 1.0}, {"frame/threads:2", 2.0}, {"frame/threads:4", 1.0}});
     ASSERT_EQ(growths.size(), 1u);
     EXPECT_NEAR(growths[0].law.exponent, -1.0, 1e-12);
-    EXPECT_TRUE(std::isinf(growths[0].law.interval)) << "two values tell nothing of their error";
+    EXPECT_NEAR(growths[0].law.interval, 0.0, 1e-6);
+}
+
+TEST(Growth, ofTwoValuesTheSpreadOfRepetitionsGivesTheInterval) {
+    std::vector<TimedRun> runs;
+    for (const double factor : {0.9, 1.0, 1.1}) runs.push_back({"frame/threads:1", factor}), runs.push_back({"frame/threads:2", 0.5 * factor});
+    const auto growths = growthsOf(runs);
+    ASSERT_EQ(growths.size(), 1u);
+    EXPECT_NEAR(growths[0].law.exponent, -1.0, 1e-12);
+    // Both standard deviations of the logarithm are s: the slope's is s sqrt(2 / 3) / ln 2, of four degrees of freedom.
+    const double mean = (std::log(0.9) + std::log(1.1)) / 3.0;
+    const double variance = (std::pow(std::log(0.9) - mean, 2.0) + mean * mean + std::pow(std::log(1.1) - mean, 2.0)) / 2.0;
+    EXPECT_NEAR(growths[0].law.interval, studentQuantile(0.95, 4) * std::sqrt(variance * 2.0 / 3.0) / std::log(2.0), 1e-9);
+    runs.resize(2);
+    EXPECT_TRUE(std::isinf(growthsOf(runs)[0].law.interval)) << "two times tell nothing of their error";
 }
 
 }  // namespace

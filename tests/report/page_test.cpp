@@ -5,7 +5,7 @@
 
 #include "benchmarks/report/text.h"
 
-namespace {
+namespace page_test {
 
 using namespace clv;
 
@@ -26,7 +26,7 @@ std::string line(const std::string& page, const std::string& start) {
 }
 
 TEST(Page, saysFirstWhatABudgetBuys) {
-    const std::string page = htmlOf(kMade, {{"commit", "c0ffee"}}, {});
+    const std::string page = htmlOf(kMade, {{"commit", "c0ffee"}}, {}, {});
     const std::string two = line(page, "<tr><td><b>2 ms</b>"), ten = line(page, "<tr><td><b>10 ms</b>");
     EXPECT_NE(two.find("<b>25.0 %</b> fast, 1M rays"), std::string::npos) << two;
     EXPECT_NE(two.find("<td>–</td>"), std::string::npos) << "nothing fits in the cave";
@@ -36,7 +36,7 @@ TEST(Page, saysFirstWhatABudgetBuys) {
 }
 
 TEST(Page, holdsEveryMeasurementPlotsAndWhereTheyComeFrom) {
-    const std::string page = htmlOf(kMade, {{"commit", "c0ffee"}}, {{"hall", {{.title = "map of fast", .png = "PNG"}}}});
+    const std::string page = htmlOf(kMade, {{"commit", "c0ffee"}}, {{"hall", {{.title = "map of fast", .png = "PNG"}}}}, {});
     for (const Measurement& m : kMade) EXPECT_NE(page.find("<td>" + escaped(m.scene) + "</td><td>" + escaped(m.method) + "</td><td>" + countText(m.rays)), std::string::npos);
     for (const char* words : {"c0ffee", "data:image/png;base64,UE5H", "map of fast"}) EXPECT_NE(page.find(words), std::string::npos) << words;
     std::size_t plots = 0;
@@ -44,8 +44,17 @@ TEST(Page, holdsEveryMeasurementPlotsAndWhereTheyComeFrom) {
     EXPECT_EQ(plots, 8u);
 }
 
+TEST(Page, showsWhatEachStageTakesInEachScene) {
+    const StageTime trace{"trace", "ray", 91.26, 4.0, 96.0, "bare <Embree>", 0.985}, merge{"merge 32³", "slot", 80123.4, 3000, 512.0, "copy", 2.27};
+    const std::string page = htmlOf(kMade, {}, {}, {{"hall", {trace, merge}}, {"cave", {trace}}});
+    EXPECT_NE(line(page, "<tr><th>stage</th>").find("<th>hall, ns an item</th><th>bytes</th><th>of the limit</th><th>cave, ns an item</th>"), std::string::npos);
+    const std::string cells = "<td>91.3 <small>± 2.0</small></td><td>96</td><td>98 %</td>";
+    EXPECT_EQ(line(page, "<tr><td>trace</td>"), "<tr><td>trace</td><td>ray</td><td>bare &lt;Embree&gt;</td>" + cells + cells + "</tr>");
+    EXPECT_NE(line(page, "<tr><td>merge 32³</td>").find("<td>80,123 <small>± 1,500</small></td><td>512</td><td>227 %</td><td>–</td>"), std::string::npos) << "the cave has no time of it";
+}
+
 TEST(Page, needsNothingFromElsewhereAndNamesAreNoMarkup) {
-    const std::string page = htmlOf(kMade, {}, {});
+    const std::string page = htmlOf(kMade, {}, {}, {});
     for (const char* words : {"<script", "<link", "src=\"http", "url(http", "slow<b>"}) EXPECT_EQ(page.find(words), std::string::npos) << words;
 }
 
@@ -60,6 +69,9 @@ TEST(Text, numbersAreAsLongAsTheyMean) {
     EXPECT_EQ(countText(4 << 20), "4M");
     EXPECT_EQ(countText(1000), "1000");
     EXPECT_EQ(bytesText(3 << 19), "1.5 MiB");
+    EXPECT_EQ(groupedText(921600), "921,600");
+    EXPECT_EQ(groupedText(100), "100");
+    EXPECT_EQ(groupedText(1234567), "1,234,567");
 }
 
 TEST(Text, base64IsThatOfRfc4648) {
@@ -70,4 +82,4 @@ TEST(Text, base64IsThatOfRfc4648) {
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-}  // namespace
+}  // namespace page_test

@@ -58,6 +58,8 @@ TEST_F(Runner, aMethodIsPreparedOnceAndWarmedUpForEachNumberOfRays) {
     EXPECT_EQ(calls_.prepared, 1);
     EXPECT_EQ(calls_.frames, 2 * (1 + 2 * 4));
     ASSERT_FALSE(shares_.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(shares_));
+    EXPECT_LT(shares_.front(), 0.01) << "the truth is in it";
     EXPECT_NEAR(shares_.back(), 1.0, 1e-12);
 }
 

@@ -4,7 +4,7 @@
 #include "scene/gltf_files.h"
 
 namespace clv {
-namespace {
+namespace obj_import_test {
 
 class ObjImport : public GltfFiles {};
 
@@ -95,5 +95,5 @@ TEST_F(ObjImport, aFileCutAnywhereIsAnErrorOrStillHasTriangles) {
     }
 }
 
-}  // namespace
+}  // namespace obj_import_test
 }  // namespace clv

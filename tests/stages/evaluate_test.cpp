@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "support/chi_square.h"
 
 using namespace clv;
@@ -27,6 +30,16 @@ TEST(Evaluate, interpolationWeightsAddUpToOneWhereverTheyAreCentred) {
             ASSERT_LT(length(mean), 1e-6f);
         }
     }
+}
+
+TEST(Evaluate, irradianceIsANumberWhateverWasRead) {
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(clvIrradianceFromSum(2.5f), 2.5f);
+    EXPECT_EQ(clvIrradianceFromSum(-2.5f), 0.0f);
+    EXPECT_EQ(clvIrradianceFromSum(-infinity), 0.0f);
+    EXPECT_EQ(clvIrradianceFromSum(infinity), kClvMostIrradiance);
+    EXPECT_EQ(clvIrradianceFromSum(infinity - infinity), kClvMostIrradiance);
+    EXPECT_TRUE(std::isfinite(clvIrradianceFromSum(infinity) + clvIrradianceFromSum(3e38f)));
 }
 
 TEST(Evaluate, theQuadraticWeightIsSmoothWhereItsPiecesMeet) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "clv/math/sampling.h"
 #include "clv/math/sobol.h"
 #include "clv/stages/record.h"
@@ -43,6 +45,50 @@ TEST(Inject, theFirstBoundaryLiesAhead) {
     EXPECT_EQ(clvWalkFirstBoundary(-0.1f, 2), 2.0f);
 }
 
+// However many rays add to a float, and however many of those floats are added up.
+TEST(Inject, sumsOfTheMostThatRaysAddAreFinite) {
+    for (float start : {1.0f, 0x1p23f, 0x1p24f, 0x1p25f - 4.0f}) {
+        float sum = start * kClvMostDeposit;
+        for (int k = 0; k < 1000; ++k) sum += kClvMostDeposit;
+        EXPECT_LE(sum, 0x1p25f * kClvMostDeposit);
+    }
+    EXPECT_TRUE(std::isfinite(4096.0f * (0x1p25f * kClvMostDeposit)));
+    for (float cellSize : {1e-9f, 0.5f, 1e5f}) EXPECT_LE(clvMostFlux(kClvInjectTrackLength, cellSize) * clvLargestDeposit(kClvInjectTrackLength, 1u, cellSize), kClvMostDeposit * 1.000001f);
+    EXPECT_EQ(clvMostFlux(kClvInjectThesis, 0.5f), kClvMostDeposit);
+}
+
+TEST(Inject, fluxBeyondTheMostIsCutOffChannelByChannel) {
+    ClvRay ray{};
+    ray.direction = vec3(0.0f, 1.0f, 0.0f), ray.flux = vec3(3e38f, -3e38f, 5.0f);
+    EXPECT_EQ(clvChannelFlux(3, ray, 100.0f), vec3(100.0f, -100.0f, 5.0f));
+    ray.flux = vec3(3e38f);
+    EXPECT_FLOAT_EQ(clvChannelFlux(1, ray, 100.0f).x, 100.0f);
+}
+
+TEST(Inject, aRayWhoseDirectionIsNotOfUnitLengthCarriesNothing) {
+    ClvRay ray{};
+    ray.flux = vec3(1.0f);
+    for (const vec3& direction : {vec3(0.0f), vec3(1e-30f), vec3(1e30f, 0.0f, 0.0f), vec3(0.0f, 2.1f, 0.0f), vec3(0.0f, 0.0f, 0.4f)}) {
+        ray.direction = direction;
+        EXPECT_EQ(clvChannelFlux(3, ray, 100.0f), vec3(0.0f)) << direction.x;
+    }
+    ray.direction = vec3(0.999f, 0.0f, 0.0f);
+    EXPECT_EQ(clvChannelFlux(3, ray, 100.0f), vec3(1.0f));
+}
+
+TEST(Inject, aDimRayIsNotLostInARecord) {
+    ClvRay ray{};
+    ray.direction = vec3(0.0f, 1.0f, 0.0f), ray.flux = vec3(1e-30f);
+    EXPECT_EQ(clvRecordValue(clvRecordOfRay(kClvStorageCube, 1, ray, ray.direction, 100.0f), 1, 3), 1e-30f);
+}
+
+TEST(Inject, aFixedPointScaleExistsForAnyFlux) {
+    for (float flux : {0.0f, 1e-38f, 1.0f, 3e38f}) {
+        const float scale = clvFixedScale(flux, 1u << 30, clvLargestDeposit(kClvInjectTrackLength, 0u, 1e5f));
+        EXPECT_TRUE(std::isfinite(scale) && scale > 0.0f && std::isfinite(1.0f / scale)) << flux;
+    }
+}
+
 // Through the middle of a cell in any direction: no coefficient gets more than the bound, and some get all of it.
 TEST(Inject, noDepositExceedsTheLargest) {
     const float side = 0.5f;
@@ -60,7 +106,7 @@ TEST(Inject, noDepositExceedsTheLargest) {
         const float length = clvCrossingWeight(kClvInjectTrackLength, clvWalkStep(walk, ray.direction), side);
         for (const uint storage : {kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) {
             for (int turned = 0; turned < 2; ++turned) {
-                const ClvRecord record = clvRecordOfRay(storage, 1, ray, axes[turned] * ray.direction);
+                const ClvRecord record = clvRecordOfRay(storage, 1, ray, axes[turned] * ray.direction, clvMostFlux(kClvInjectTrackLength, side));
                 for (uint k = 0; k < clvCoefficientCount(storage); ++k) largest[turned] = std::max(largest[turned], std::abs(clvRecordValue(record, 1, k)) * length);
             }
         }

@@ -10,7 +10,7 @@
 
 using namespace clv;
 
-namespace {
+namespace rays_test {
 
 ClvRsmTexel texelAt(vec3 position, vec3 normal) {
     ClvRsmTexel texel{};
@@ -190,4 +190,4 @@ TEST(Trace, theFacingNormalOpposesTheRay) {
     EXPECT_EQ(clvFacingNormal(n, vec3(0.6f, -0.8f, 0.0f)), n);
 }
 
-}  // namespace
+}  // namespace rays_test

@@ -1,6 +1,9 @@
 // What a baked volume says at a point and in a cell.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "support/hall_volume.h"
 
 using namespace clv;
@@ -32,6 +35,21 @@ TEST(BakedVolume, beyondTheLastCascadeTheLightIsThatOfItsEdge) {
     const vec3 edge = grid.origin + vec3(0.0f, 3.0f, 3.0f);
     const vec3 normal(1.0f, 0.0f, 0.0f);
     EXPECT_EQ(irradianceAt(volume, {edge - vec3(50.0f, 0.0f, 0.0f), 0.0f, normal, 0.0f}), irradianceAt(volume, {edge, 0.0f, normal, 0.0f}));
+}
+
+// A file may hold any float.
+TEST(BakedVolume, theBrightestDepositsAreReadAsNumbers) {
+    BakedVolume volume = hallVolume(2, true, kClvStorageCube9);
+    for (BakedCascade& cascade : volume.cascades) {
+        for (std::size_t k = 0; k < cascade.estimates[0].size(); ++k) cascade.estimates[0][k] = k % 3 == 0 ? -3.4e38f : 3.4e38f;
+        std::ranges::fill(cascade.estimates[1], 0.0f);
+    }
+    const vec3 e = irradianceAt(volume, {vec3(0.0f, -1.0f, -2.3f), 0.0f, vec3(0.6f, 0.0f, 0.8f), 0.0f});
+    EXPECT_TRUE(std::isfinite(e.x) && std::isfinite(e.y) && std::isfinite(e.z));
+    for (std::size_t cell = 0; cell < volume.cascades[0].level.cellCount(); ++cell) {
+        const CellLight light = cellLight(volume, volume.cascades[0], cell);
+        for (std::size_t side = 0; side < kSides; ++side) ASSERT_TRUE(std::isfinite(light.variance[side]) && std::isfinite(light.irradiance[side].y)) << cell;
+    }
 }
 
 TEST(BakedVolume, theSidesOfACellAreItsDepositsOverItsOpenVolume) {

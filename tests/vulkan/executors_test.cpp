@@ -10,7 +10,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace executors_test {
 
 constexpr std::uint32_t kRays = 4096, kReceivers = 200, kSlotsOfReceiver = 3;
 constexpr float kLargestFlux = 1.5f;
@@ -134,4 +134,4 @@ TEST(Executors, drawTheSamePicture) {
     }
 }
 
-}  // namespace
+}  // namespace executors_test

@@ -14,7 +14,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace frame_test {
 
 bool sameBits(const std::vector<ClvRay>& a, const std::vector<ClvRay>& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ClvRay)) == 0; }
 
@@ -268,4 +268,4 @@ TEST(VulkanFrame, isWhatAnotherExecutorMakesOfTheDescription) {
     EXPECT_TRUE(isZero(RaysFrame::raysOf(theirs)));
 }
 
-}  // namespace
+}  // namespace frame_test

@@ -12,7 +12,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace inject_test {
 
 constexpr std::uint32_t kRays = 4096;  // a power of two: history times rays is the sum of deposits without another rounding
 constexpr float kLargestFlux = 1.5f;
@@ -27,7 +27,7 @@ LightFrameSettings settingsFor(InjectWay way, const DepositLayout& layout) {
 
 // What each half's slots hold after one frame, times the number of its rays: the sums of its deposits.
 std::vector<float> depositsOf(VulkanDevice& device, ShaderLanguage language, LightFrameSettings settings, const Level& level, std::span<const ClvRay> rays,
-                              const mat3& axes = mat3(1.0f)) {
+                              const mat3& axes = mat3(1.0f), float largestFlux = kLargestFlux) {
     const BrickSlots bricks = brickSlots(level);
     settings.levels = {describeLevel(level, bricks)};
     VulkanFrame frame(device, lightFrame(settings), language);
@@ -36,7 +36,7 @@ std::vector<float> depositsOf(VulkanDevice& device, ShaderLanguage language, Lig
     keepDirectionsAlong(axes, constants);
     frame.upload("frame", constants);
     frame.upload("rays", rays);
-    frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f, kLargestFlux));
+    frame.upload("level 0", levelConstants(level, bricks, settings, 1.0f, largestFlux));
     uploadLevel(frame, settings, 0, level, bricks);
     frame.run("light");
     std::vector<float> sums(settings.halves * level.slots.size() * frameStride(settings));
@@ -57,7 +57,7 @@ Expected expectedDeposits(const Level& level, const DepositLayout& layout, std::
     std::vector<int> terms(2 * level.slots.size());
     const double diagonal = glm::length(vec3(level.volume.resolution)) * double(level.volume.cellSize);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], layout.frame * rays[i].direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], layout.frame * rays[i].direction, clvMostFlux(rule, level.volume.cellSize));
         ClvWalk walk = clvWalkBegin(level.volume, rays[i]);
         while (walk.running == 1) {
             const ClvCrossing crossing = clvWalkStep(walk, rays[i].direction);
@@ -274,6 +274,27 @@ TEST_F(VulkanInject, doesNotOverflowInFixedPoint) {
     EXPECT_EQ(sums[first + 3], 0.0f);
 }
 
+// Rays as bright as floats are, of both signs, and among them such without a direction: sums stay numbers.
+TEST_F(VulkanInject, addsUpTheBrightestRaysToNumbers) {
+    const Level level = openLevel();
+    std::vector<ClvRay> rays = testRays(level.volume, kRays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        rays[i].flux = vec3(i % 5 == 0 ? -3e38f : 3e38f);
+        if (i % 7 == 0) rays[i].direction = i % 2 == 0 ? vec3(0.0f) : vec3(1e30f);
+    }
+    for (const InjectWay way : kWays) {
+        for (const std::uint32_t storage : {kClvStorageCube9, kClvStorageSh1}) {
+            for (const ShaderLanguage language : kLanguages) {
+                const std::vector<float> sums = depositsOf(device, language, settingsFor(way, {storage, 3}), level, rays, mat3(1.0f), 3e38f);
+                std::size_t notFinite = 0, lit = 0;
+                for (float sum : sums) notFinite += !std::isfinite(sum), lit += sum != 0.0f;
+                EXPECT_EQ(notFinite, 0u) << "way " << int(way) << ", storage " << storage << ", language " << int(language);
+                EXPECT_GT(lit, sums.size() / 10);
+            }
+        }
+    }
+}
+
 // Where no receiver reads, no cell has slots, and nothing is listed.
 TEST_F(VulkanInject, listsNoRaysInBricksWithoutSlots) {
     const ClvVolume volume = openLevel().volume;
@@ -343,4 +364,4 @@ TEST(BrickSlots, holdEachSlotOnceInGroupsOfOneBrick) {
     EXPECT_EQ(seen.size(), level.slots.size());
 }
 
-}  // namespace
+}  // namespace inject_test

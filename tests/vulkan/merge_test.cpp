@@ -7,7 +7,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace merge_test {
 
 constexpr std::size_t kSlots = 77, kStride = 32, kHalves = 2, kValues = kSlots * kStride * kHalves;
 constexpr ShaderLanguage kLanguages[] = {ShaderLanguage::glsl, ShaderLanguage::hlsl};
@@ -99,4 +99,4 @@ TEST_F(VulkanMerge, takesIntegersForTheirUnits) {
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
-}  // namespace
+}  // namespace merge_test

@@ -13,7 +13,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace moving_lights_test {
 
 constexpr std::uint32_t kRays = 2048, kHalves = 2;
 constexpr int kFrames = 4;
@@ -167,4 +167,4 @@ TEST(StillLights, spareTheInstructionsOfMovingOnes) {
     EXPECT_EQ(moving - still, sizeof(ClvMergeSettings) + 64 * (6 * sizeof(uint) + 6 * sizeof(float) + sizeof(float)));
 }
 
-}  // namespace
+}  // namespace moving_lights_test

@@ -10,7 +10,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace picture_test {
 
 constexpr std::uint32_t kRays = 16384;
 constexpr uvec2 kSize(80, 48);
@@ -102,4 +102,4 @@ TEST(VulkanPicture, isTheSameInBothLanguagesAndByEveryWayToInject) {
     EXPECT_EQ(picture.device.messages(), std::vector<std::string>());
 }
 
-}  // namespace
+}  // namespace picture_test

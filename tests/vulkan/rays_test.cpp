@@ -12,7 +12,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace rays_test {
 
 struct Sums {
     const std::vector<float>& sums;
@@ -112,4 +112,4 @@ TEST(VulkanRays, mayBeMoreThanARowOfWorkGroups) {
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
-}  // namespace
+}  // namespace rays_test

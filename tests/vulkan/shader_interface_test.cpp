@@ -12,7 +12,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace shader_interface_test {
 
 constexpr ShaderLanguage kLanguages[] = {ShaderLanguage::glsl, ShaderLanguage::hlsl};
 
@@ -174,4 +174,4 @@ TEST(ShaderInterface, isTheSameInBothLanguages) {
     EXPECT_GT(compared, 0);
 }
 
-}  // namespace
+}  // namespace shader_interface_test

@@ -11,7 +11,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace slices_test {
 
 constexpr std::uint32_t kRays = 4096;
 constexpr double kUnit = 0x1p-24;  // rounding of a float
@@ -29,7 +29,7 @@ Expected expectedLines(const Level& level, const DepositLayout& layout, std::spa
     const std::size_t stride = std::size_t(layout.stride()), slots = level.slots.size();
     Expected expected{std::vector<double>(2 * slots * stride), std::vector<double>(2 * slots * stride), std::vector<int>(2 * slots), std::vector<float>(12 * slots), std::vector<float>(12 * slots)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], rays[i].direction);
+        const ClvRecord record = clvRecordOfRay(layout.storage, uint(layout.channels), rays[i], rays[i].direction, clvMostFlux(kClvInjectThesis, level.volume.cellSize));
         const ClvCoefficients sides = clvDepositCoefficients(kClvStorageCube, rays[i].direction);
         const ClvSlices slices = clvSlicesOfRay(level.volume, rays[i]);
         for (int s = 0; s < slices.count; ++s) {
@@ -195,4 +195,4 @@ TEST_F(VulkanSlices, spareTheFirstCellAndKeepTheLast) {
     }
 }
 
-}  // namespace
+}  // namespace slices_test

@@ -7,7 +7,7 @@
 #include "vulkan/traced_scene.h"
 
 namespace clv::test {
-namespace {
+namespace trace_test {
 
 constexpr std::uint32_t kSide = 32, kRays = 8192;
 
@@ -161,5 +161,5 @@ TEST(VulkanTrace, deadRaysStayDead) {
     }
 }
 
-}  // namespace
+}  // namespace trace_test
 }  // namespace clv::test

@@ -1,6 +1,7 @@
 // The walk in shaders: rays that it may stumble over cross the same bricks as on the processor.
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <numeric>
 
 #include "bindings/cli/stress/walk_rays.h"
@@ -9,9 +10,10 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace walk_test {
 
-constexpr std::uint32_t kRays = 1u << 16;
+constexpr std::uint32_t kRays = 1u << 16;  // of a frame: the lists of the longest grid take 134 MB
+constexpr std::uint32_t kRounds = 3;        // with the six grids more than a million rays in each language
 
 // How many rays cross each brick.
 std::vector<uint> raysOfBricks(const ClvVolume& bricks, std::span<const ClvRay> rays) {
@@ -36,11 +38,12 @@ TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
     const Level levels[] = {openLevel(ivec3(32), 0.5f, vec3(-8.0f)), openLevel(ivec3(61, 23, 40), 0.1f, vec3(0.3f, -1.7f, 2.9f)),
                             openLevel(ivec3(1), 1.0f, vec3(0.0f)), openLevel(ivec3(1024, 1, 1), 0.25f, vec3(-128.0f, 0.0f, 0.0f)),
                             openLevel(ivec3(16), 1e5f, vec3(-8e5f)), openLevel(ivec3(16), 4.0f, vec3(1e7f, -1e7f, 1e7f))};
-    for (const Level& level : levels) {
+    for (std::uint32_t k = 0; k < kRounds * std::size(levels); ++k) {
+        const Level& level = levels[k % std::size(levels)];
         const ClvVolume bricks = clvBrickVolume(level.volume);
-        Random random(7);
+        Random random(7u + k);
         std::vector<ClvRay> rays;
-        for (std::uint32_t k = 0; k < kRays; ++k) rays.push_back(rayOfKind(RayKind(int(k % std::uint32_t(RayKind::kCount))), random, level.volume));
+        for (std::uint32_t i = 0; i < kRays; ++i) rays.push_back(rayOfKind(RayKind(int(i % std::uint32_t(RayKind::kCount))), random, level.volume));
         const std::vector<uint> expected = raysOfBricks(bricks, rays);
         ASSERT_GT(std::accumulate(expected.begin(), expected.end(), 0u), kRays / 2);
         const BrickSlots slots = brickSlots(level);
@@ -70,4 +73,4 @@ TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
-}  // namespace
+}  // namespace walk_test

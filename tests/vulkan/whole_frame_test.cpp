@@ -9,7 +9,7 @@
 using namespace clv;
 using namespace clv::test;
 
-namespace {
+namespace whole_frame_test {
 
 constexpr const char* kScenes[] = {"cornell", "two_rooms", "atrium"};
 constexpr InjectWay kWays[] = {InjectWay::bricks, InjectWay::bricksPlain, InjectWay::floatAtomics, InjectWay::fixedPoint};
@@ -116,4 +116,4 @@ TEST(LightFrame, matchesTheShadersForEverySetting) {
     for (const auto& [key, shader] : shaders) EXPECT_TRUE(used.contains(key.first)) << "no frame uses the shader " << key.first;
 }
 
-}  // namespace
+}  // namespace whole_frame_test

@@ -10,15 +10,16 @@
 #include "clv/cpu/inject.h"
 #include "clv/cpu/partial_volume.h"
 #include "clv/math/hash.h"
+#include "clv/plan/number_check.h"
 
 namespace clv {
 namespace {
 
 constexpr int kSide = 8;  // cells
 
-Level openLevel() {
+Level openLevel(float cellSize = 0.5f, uint storage = kClvStorageCube9) {
     ClvVolume volume{};
-    volume.origin = vec3(-2.0f), volume.cellSize = 0.5f, volume.resolution = ivec3(kSide), volume.storage = kClvStorageCube9;
+    volume.origin = vec3(-4.0f * cellSize), volume.cellSize = cellSize, volume.resolution = ivec3(kSide), volume.storage = storage;
     return buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
 }
 
@@ -100,40 +101,85 @@ std::vector<StressFigure> linearity(const StressSettings& settings) {
     return {{"deposits that differ", differing, 0.0}};
 }
 
-// Rays of 1e38 W: what is read must be finite, or the sum itself is beyond the floats.
+// Rays as bright as floats are, through cells of 1 nm to 100 km: sums and what is read from them stay numbers.
 std::vector<StressFigure> brightest(const StressSettings& settings) {
+    double notFinite = 0.0, readNotFinite = 0.0, negative = 0.0, dark = 0.0;
+    for (float cellSize : {1e-9f, 0.5f, 1e5f}) {
+        for (uint storage : {kClvStorageCube9, kClvStorageCube, kClvStorageSh1, kClvStorageSh2}) {
+            const Level level = openLevel(cellSize, storage);
+            const DepositLayout layout{storage, 3};
+            std::vector<ClvRay> rays;
+            for (uint k = 0; k < 2000; ++k) {
+                rays.push_back(rayThrough(settings.seed, k, vec3(k % 2 == 0 ? 3.4e38f : 1e38f)));
+                rays.back().origin *= 2.0f * cellSize, rays.back().maxDistance = 1e30f;
+            }
+            PartialVolume partial = deposit(level, layout, rays);
+            for (float value : partial.target().deposits) notFinite += !isFinite(double(value));
+            SlotWeights weights;
+            double mean = 0.0;
+            for (uint k = 0; k < 200; ++k) {
+                const ClvRay at = rayThrough(settings.seed + 1u, k, vec3(1.0f));
+                lookupWeights(level, {at.origin * 2.0f * cellSize, 0.0f, at.direction, 0.0f}, {}, weights);
+                const vec3 e = readIrradiance(layout, partial.target().deposits, weights, layout.read(at.direction));
+                for (int c = 0; c < 3; ++c) readNotFinite += !isFinite(double(e[c])), negative += e[c] < 0.0f;
+                mean += double(e.x);
+            }
+            dark += !(mean > 0.0);
+        }
+    }
+    return {{"deposits that are not finite", notFinite, 0.0}, {"irradiances that are not finite", readNotFinite, 0.0}, {"irradiances below 0", negative, 0.0}, {"grids that are dark", dark, 0.0}};
+}
+
+// A ray of negative flux takes away what it would add.
+std::vector<StressFigure> negative(const StressSettings& settings) {
     const Level level = openLevel();
     const DepositLayout layout;
     std::vector<ClvRay> rays;
-    for (uint k = 0; k < 16; ++k) rays.push_back(rayThrough(settings.seed, k, vec3(1e37f)));
-    PartialVolume partial = deposit(level, layout, rays);
-    double notFinite = 0.0, negative = 0.0;
-    for (float value : partial.target().deposits) notFinite += !std::isfinite(value);
-    SlotWeights weights;
-    for (uint k = 0; k < 500; ++k) {
-        const ClvRay at = rayThrough(settings.seed + 1u, k, vec3(1.0f));
-        lookupWeights(level, {at.origin, 0.0f, at.direction, 0.0f}, {}, weights);
-        const vec3 e = readIrradiance(layout, partial.target().deposits, weights, layout.read(at.direction));
-        notFinite += !std::isfinite(e.x), negative += e.x < 0.0f;
-    }
-    return {{"values that are not finite", notFinite, 0.0}, {"irradiances below 0", negative, 0.0}};
+    for (uint k = 0; k < 2000; ++k) rays.push_back(rayThrough(settings.seed, k, vec3(0.3f, 0.2f, 0.1f)));
+    PartialVolume bright = deposit(level, layout, rays);
+    for (ClvRay& ray : rays) ray.flux = -ray.flux;
+    PartialVolume dark = deposit(level, layout, rays);
+    double differing = 0.0;
+    for (std::size_t k = 0; k < bright.deposits.size(); ++k) differing += bright.deposits[k] != -dark.deposits[k];
+    return {{"deposits that are not minus those of the same flux above 0", differing, 0.0}};
 }
 
-// One cell that a million rays of about 1 W cross, alone and beside as many dim ones: what float32 sums keep, against double precision. Rays
-// that this library draws carry equal flux, and a dim lamp fewer of them; an engine's own may not.
-std::vector<StressFigure> millionRays(const StressSettings& settings) {
-    std::vector<StressFigure> figures;
-    for (float ratio : {0.0f, 1e-3f, 1e-6f}) {
-        float sum = 0.0f;
-        double bright = 0.0, dim = 0.0;
-        for (uint k = 0; k < 1u << 20; ++k) {
-            const float a = clvUnitFloat(clvHashCombine(settings.seed, 2 * k)), b = ratio * clvUnitFloat(clvHashCombine(settings.seed, 2 * k + 1));
-            sum += a, sum += b;
-            bright += double(a), dim += double(b);
-        }
-        if (ratio == 0.0f) figures.push_back({"error of the sum of like rays", std::abs(double(sum) / bright - 1.0), 1e-4});
-        else figures.push_back({fmt::format("rays of {:g} W, error over their light, %", ratio), 100.0 * std::abs(double(sum) - bright - dim) / dim});
+// Rays of 1 W through one cell, each followed by one of `ratio` W: the sum, beside double precision. apart: the dim ones add to sums of their own.
+struct OneCell {
+    double brightError = 0.0, dimError = 0.0;  // over the light of each
+};
+OneCell raysThroughOneCell(uint count, float ratio, bool apart, const StressSettings& settings) {
+    ClvVolume volume{};
+    volume.cellSize = 1.0f, volume.resolution = ivec3(1), volume.storage = kClvStorageCube;
+    const Level level = buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+    const DepositLayout layout{kClvStorageCube, 1};
+    std::vector<ClvRay> rays, dim;
+    double bright = 0.0, faint = 0.0;
+    for (uint k = 0; k < count; ++k) {
+        ClvRay ray{};
+        ray.origin = vec3(0.0f, 0.5f, 0.5f), ray.direction = vec3(1.0f, 0.0f, 0.0f), ray.flux = vec3(1.0f);
+        ray.maxDistance = clvUnitFloat(clvHashCombine(settings.seed, k));
+        bright += double(ray.maxDistance);
+        rays.push_back(ray);
+        if (ratio == 0.0f) continue;
+        ray.flux = vec3(ratio);
+        faint += double(ratio) * double(ray.maxDistance);
+        (apart ? dim : rays).push_back(ray);
     }
+    const double sum = deposit(level, layout, rays).deposits[1], sumOfDim = apart ? double(deposit(level, layout, dim).deposits[1]) : sum - bright;
+    return {std::abs((apart ? sum / bright : sum / (bright + faint)) - 1.0), faint > 0.0 ? std::abs(sumOfDim / faint - 1.0) : 0.0};
+}
+
+std::vector<StressFigure> millionRays(const StressSettings& settings) {
+    const uint most = settings.exhaustive ? 1u << 26 : 1u << 22;
+    std::vector<StressFigure> figures = {{"a million like rays, sum off by", raysThroughOneCell(1u << 20, 0.0f, false, settings).brightError, 1e-4},
+                                         {fmt::format("{} million like rays, sum off by", most >> 20), raysThroughOneCell(most, 0.0f, false, settings).brightError, 1e-4}};
+    figures.push_back({"65536 rays and as many a hundred times dimmer, % of these off", 100.0 * raysThroughOneCell(1u << 16, 1e-2f, false, settings).dimError, 1.0});
+    for (uint count : {1u << 12, 1u << 16, 1u << 20}) {
+        const double lost = 100.0 * raysThroughOneCell(count, 1e-3f, false, settings).dimError;
+        figures.push_back({fmt::format("{} rays and as many a thousand times dimmer, % of these off", count), lost, count <= 1u << 12 ? 1.0 : StressFigure::kStated});
+    }
+    figures.push_back({"a million of each, in sums of their own, %", 100.0 * raysThroughOneCell(1u << 20, 1e-3f, true, settings).dimError, 0.01});
     return figures;
 }
 
@@ -168,8 +214,9 @@ std::vector<StressCase> fluxCases() {
     return {
         {"flux", "NaN, infinite, dead and endless rays among good ones", "they add nothing, and harm nothing", badAmongGood},
         {"flux", "flux of 2^-90 to 2^90", "deposits scale with it, to the bit", linearity},
-        {"flux", "flux of 1e37 W a ray", "what is read is finite and not negative", brightest},
-        {"flux", "a million rays through one cell", "the sum of like rays is right within 1e-4; what dim ones lose is stated", millionRays},
+        {"flux", "flux of 1e38 and 3.4e38 W a ray, endless, cells of 1 nm to 100 km", "sums are finite, and what is read is finite and not negative", brightest},
+        {"flux", "flux below 0", "it takes away what flux above 0 adds", negative},
+        {"flux", "millions of rays through one cell", "the sum of like rays is right within 1e-4, and of dim ones where there are few, or apart; else their loss is stated", millionRays},
         {"flux", "sums of integers, lamps of 1e-6 to 1e6 W", "no sum overflows, and none is off by more than 1e-4", fixedPoint},
     };
 }

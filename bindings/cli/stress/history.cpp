@@ -1,54 +1,17 @@
-// Stiff history: slow and fast light side by side, time steps from 1e-4 s to 1e3 s, and what each format of a history stalls at.
+// Stiff history: slow and fast light side by side, time steps from 1e-4 s to 1e3 s, ten million merges.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "bindings/cli/stress/history_formats.h"
 #include "bindings/cli/stress/stress_case.h"
 #include "clv/math/hash.h"
-#include "clv/math/pack.h"
 #include "clv/stages/merge.h"
 
 namespace clv {
 namespace {
 
 float unit(std::uint32_t seed, std::uint64_t index) { return clvUnitFloat(clvHashCombine(clvHashCombine(seed, uint(index >> 32)), uint(index))); }
-
-// A way to keep a value from frame to frame.
-struct Format {
-    std::string name;
-    float (*merged)(float history, float current, float weight, uint random);
-    double mostStall;  // %
-};
-
-// Share of a fixed-point history's range that the input fills: room for an input twice as bright.
-constexpr float kFixedScale = 1073741824.0f;
-
-const std::array<Format, 7> kFormats = {{
-    {"float32 (the default)", [](float h, float c, float w, uint) { return clvMergeStep(h, c, w); }, 0.05},
-    {"float32 dithered", [](float h, float c, float w, uint r) { return clvMergeDithered(h, c, w, r); }, 0.05},
-    {"half, to the nearest", [](float h, float c, float w, uint) { return clvFloatFromHalf(clvHalfFromFloat(clvMergeStep(h, c, w))); }, StressFigure::kStated},
-    {"half dithered", [](float h, float c, float w, uint r) { return clvFloatFromHalf(clvHalfDithered(clvMergeStep(h, c, w), r)); }, StressFigure::kStated},
-    {"RGB9E5", [](float h, float c, float w, uint) { return clvFloatFromRgb9e5(clvRgb9e5FromFloat(vec3(clvMergeStep(h, c, w)))).x; }, StressFigure::kStated},
-    {"R11G11B10", [](float h, float c, float w, uint) { return clvFloatFromR11g11b10(clvR11g11b10FromFloat(vec3(clvMergeStep(h, c, w)))).x; }, StressFigure::kStated},
-    {"fixed point, 32 bits", [](float h, float c, float w, uint) { return float(int(std::floor(clvMergeStep(h, c, w) * kFixedScale + 0.5f))) / kFixedScale; }, 0.05},
-}};
-
-// Light that is switched on and then stands still: how far the history stays below it. Each merge sees the same noiseless value.
-std::vector<StressFigure> stall(float alpha, const StressSettings& settings) {
-    constexpr float kLight = 0.7361f;
-    const std::uint64_t merges = std::uint64_t(20.0f / alpha), mean = merges / 2;
-    std::vector<StressFigure> figures;
-    for (const Format& format : kFormats) {
-        float history = 0.0f;
-        double sum = 0.0;  // of the second half, in which only rounding is left
-        for (std::uint64_t k = 0; k < merges; ++k) {
-            history = format.merged(history, kLight, alpha, clvHashCombine(settings.seed, uint(k)));
-            if (k >= mean) sum += history;
-        }
-        figures.push_back({format.name + ", % short", 100.0 * std::abs(1.0 - sum / double(merges - mean) / double(kLight)), format.mostStall});
-    }
-    return figures;
-}
 
 // One cell, merged with noise of its own size: drift from a run in double precision that sees the same frames.
 std::vector<StressFigure> manyMerges(float alpha, const StressSettings& settings) {
@@ -94,6 +57,28 @@ std::vector<StressFigure> sideBySide(const StressSettings& settings) {
     return {{"overshoot", overshoot, 0.0}, {"fall", fall, 0.0}, {"off the exponential", error, 1e-4}, {"missing in the end", late, 5e-4}};
 }
 
+// Any two values, any step of time from the smallest float to the largest, any rates: the merge lies between the two, and a longer step goes no less far.
+std::vector<StressFigure> anyStep(const StressSettings& settings) {
+    const auto anyPower = [&](std::uint64_t index, float least, float most) { return std::pow(10.0f, least + (most - least) * unit(settings.seed, index)); };
+    double outside = 0.0, back = 0.0, weights = 0.0;
+    const std::uint64_t count = settings.exhaustive ? 100'000'000 : 1'000'000;
+    for (std::uint64_t k = 0; k < count; ++k) {
+        const float history = anyPower(6 * k, -30.0f, 30.0f), current = anyPower(6 * k + 1, -30.0f, 30.0f);
+        const float stillTime = anyPower(6 * k + 2, -30.0f, 18.0f);
+        const ClvMergeSettings merge{anyPower(6 * k + 3, -38.0f, 38.0f), stillTime, stillTime * unit(settings.seed, 6 * k + 4) + 1e-38f, 1.0f};
+        ClvMergeSettings longer = merge;
+        longer.timestep *= 1.0f + unit(settings.seed, 6 * k + 5);
+        const float dynamicity = unit(settings.seed, 6 * k + 5);
+        const float weight = clvMergeAlpha(merge, dynamicity), more = clvMergeAlpha(longer, dynamicity);
+        const float merged = clvMergeStep(history, current, weight);
+        weights += !(weight >= 0.0f && weight <= 1.0f);
+        outside += !(merged >= std::min(history, current) && merged <= std::max(history, current));
+        // The decay's two branches meet within their last places.
+        back += more < weight * (1.0f - 0x1p-20f);
+    }
+    return {{"weights outside of [0, 1]", weights, 0.0}, {"merges that overshoot, or go the other way", outside, 0.0}, {"longer steps of less weight", back, 0.0}};
+}
+
 // A bright light goes out, and a dim one stays: a frame that replaces the history leaves nothing of it.
 std::vector<StressFigure> afterBrightness(const StressSettings&) {
     double left = 0.0;
@@ -120,15 +105,11 @@ std::vector<StressFigure> slowest(const StressSettings& settings) {
 }  // namespace
 
 std::vector<StressCase> historyCases() {
-    std::vector<StressCase> cases;
-    for (float alpha : {0.05f, 0.01f, 0.005f}) {
-        char name[64];
-        std::snprintf(name, sizeof name, "stall at a weight of %g", double(alpha));
-        cases.push_back({"history", name, "the default format ends within 0.05 % of the light", [alpha](const StressSettings& s) { return stall(alpha, s); }});
-    }
+    std::vector<StressCase> cases = historyFormatCases();
     cases.push_back({"history", "ten million merges, plain mean", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(0.0f, s); }});
     cases.push_back({"history", "ten million merges at a weight of 0.001", "float32 follows double precision more closely than the noise that is left", [](const StressSettings& s) { return manyMerges(1e-3f, s); }});
     cases.push_back({"history", "dynamicities of 1e-4 to 1, steps of 1e-4 s to 1e3 s", "each side follows its exponential, and never overshoots", sideBySide});
+    cases.push_back({"history", "any two values, any step of time", "the merge lies between the two, and a longer step goes no less far", anyStep});
     cases.push_back({"history", "light of 1e4 to 1e30 goes out, and light of 1 stays", "a weight of 1 leaves no trace", afterBrightness});
     cases.push_back({"history", "a step of 1e-4 s against a time of 1000 s", "the rate is right, and a dithered history does not stall", slowest});
     return cases;

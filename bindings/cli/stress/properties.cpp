@@ -12,7 +12,7 @@
 namespace clv {
 namespace {
 
-constexpr double kLastPlace = 0x1p-23;
+constexpr double kFloatStep = 0x1p-23;
 
 // Sides are powers of two and the corner is a whole number of them, so that grids can be turned and moved without rounding.
 ClvVolume exactGrid() {
@@ -137,7 +137,7 @@ std::vector<StressFigure> translation(const StressSettings& settings) {
 }
 
 // Light of two sets of rays is the sum of the light of each, and of a ray m times as bright m times as much.
-std::vector<StressFigure> linearity(const StressSettings& settings) {
+std::vector<StressFigure> superposition(const StressSettings& settings) {
     const ClvVolume volume = exactGrid();
     const std::vector<ClvRay> first = raysIn(volume, settings.seed, 5000), second = raysIn(volume, settings.seed + 1u, 5000);
     std::vector<ClvRay> both = first;
@@ -148,7 +148,7 @@ std::vector<StressFigure> linearity(const StressSettings& settings) {
         const double expected = double(a.sums.deposits[k]) + 3.0 * double(b.sums.deposits[k]);
         worst = std::max(worst, std::abs(double(sum.sums.deposits[k]) - expected)), largest = std::max(largest, std::abs(expected));
     }
-    return {{"difference, of the largest deposit", worst / largest, 8.0 * kLastPlace}};
+    return {{"difference, of the largest deposit", worst / largest, 8.0 * kFloatStep}};
 }
 
 // The sides hold flux times length times the sum of the direction's components, over all cells what the rays carry through the grid.
@@ -168,7 +168,7 @@ std::vector<StressFigure> energy(const StressSettings& settings) {
         const std::span<const float> record = light.record(clvCellFromIndex(volume, uint(i)));
         for (std::size_t k = 0; k < 3 * kSides; ++k) sum += double(record[k]);
     }
-    return {{"energy lost or made, of all", std::abs(sum / expected - 1.0), 4.0 * kLastPlace}};
+    return {{"energy lost or made, of all", std::abs(sum / expected - 1.0), 4.0 * kFloatStep}};
 }
 
 // Four times the rays: half the error, or nearly, against the mean of many more.
@@ -202,7 +202,7 @@ std::vector<StressFigure> convergence(const StressSettings& settings) {
 std::vector<StressCase> propertyCases() {
     return {{"properties", "the 48 maps of the axes onto themselves", "grid, rays and receivers turned or mirrored give the same light", symmetry},
             {"properties", "a grid moved by whole cells", "it holds the same light, to the bit, wherever its cells are stored", translation},
-            {"properties", "two sets of rays, one three times as bright", "their light adds up", linearity},
+            {"properties", "two sets of rays, one three times as bright", "their light adds up", superposition},
             {"properties", "energy in the grid", "the cells hold what the rays carry through them", energy},
             {"properties", "four times the rays", "the error falls as their square root, or nearly", convergence}};
 }

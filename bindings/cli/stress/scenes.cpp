@@ -82,6 +82,12 @@ std::vector<Place> places() {
              for (int k = 0; k < 5; ++k) addBox(b, {0.1 * k - 0.2, -0.6, 0.05 * k}, {0.3, 0.02 * k, 0}, {-0.02 * k, 0.3, 0}, {0, 0, 0.3}, m);
          }, {0.0, 0.5, 0.0}},
         {"a lamp inside a solid", [](SceneBuilder& b, std::uint32_t m) { addRoom(b, m, 2.0); addBox(b, {0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, m); }, {0.0, 0.0, 0.0}},
+        {"a solid that fills all cells", [](SceneBuilder& b, std::uint32_t m) { addBox(b, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, m); }, {0.0, 3.0, 0.5}, false},
+        {"a room within rock, and points inside of a solid in it", [](SceneBuilder& b, std::uint32_t m) {
+             addRoom(b, m, 2.0);
+             addBox(b, {0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}, m);
+             addBox(b, {0, 0, 0}, {0.2, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}, m);
+         }, {1.0, 1.0, 1.0}},
         {"a lamp on a surface", [](SceneBuilder& b, std::uint32_t m) { addRoom(b, m); }, {0.1, -1.0, 0.2}},
         {"a lamp in a corner", [](SceneBuilder& b, std::uint32_t m) { addRoom(b, m); }, {1.0, 1.0, 1.0}},
         {"a lamp 1 mm from a wall", [](SceneBuilder& b, std::uint32_t m) { addRoom(b, m); }, {0.999, 0.1, 0.2}},
@@ -130,13 +136,27 @@ std::vector<StressFigure> lamps(const StressSettings& settings) {
         options.resolution = 16;
         const Run run = light(scene, pointsOn(scene), settings, options);
         figures.push_back({name + ": bad values", run.notFinite + run.negative, 0.0});
+        // Beyond the floats, light is cut off: that must be said.
+        const bool bright = lamp.intensity.x > 1e28f, on = lamp.intensity.x > 0.0f;
+        figures.push_back({name + ": darkness or a cut without a word", run.report.warnings.empty() && (bright || (on && run.mean == 0.0)) ? 1.0 : 0.0, 0.0});
     };
     add("cone of 1e-6 rad", makeSpotLight({0, -1, 0}, glm::vec3(1.0f), 0.0f, 1e-6f), {0.1, 0.5, 0.2});
     add("cone of a half sphere", makeSpotLight({0, -1, 0}, glm::vec3(1.0f), 0.0f, 1.5707963f), {0.1, 0.5, 0.2});
     add("lamp that is off", makePointLight(glm::vec3(0.0f)), {0.1, 0.5, 0.2});
     add("lamp of 1e30 W/sr", makePointLight(glm::vec3(1e30f)), {0.1, 0.5, 0.2});
     add("lamp of 1e-30 W/sr", makePointLight(glm::vec3(1e-30f)), {0.1, 0.5, 0.2});
+    add("lamp of 3e38 W/sr", makePointLight(glm::vec3(3e38f)), {0.1, 0.5, 0.2});
     add("sun along an axis", makeDirectionalLight({0, -1, 0}, glm::vec3(1.0f)), {0.0, 0.0, 0.0});
+    // Cones of no width, of the whole sphere and inside out: refused in words.
+    double unsaid = 0.0;
+    for (const auto& [inner, outer] : {std::pair{0.0f, 0.0f}, {0.0f, 3.14159265f}, {0.0f, 6.2831853f}, {0.5f, 0.4f}, {-0.1f, 0.5f}, {0.0f, std::nanf("")}}) {
+        try {
+            checkLight(makeSpotLight({0, -1, 0}, glm::vec3(1.0f), inner, outer), "lamp");
+            ++unsaid;
+        } catch (const InputError&) {
+        }
+    }
+    figures.push_back({"cones that cannot be and are not refused", unsaid, 0.0});
     return figures;
 }
 
@@ -211,18 +231,19 @@ std::vector<StressFigure> furnace(double albedo, const StressSettings& settings)
     options.allBounces = true;
     options.resolution = 16;
     const Run run = light(scene, points, settings, options);
+    const StressFigure contraction{"share of the power from bounce to bounce, off the albedo by", std::abs(run.report.contraction - albedo), 0.01};
     if (albedo >= 1.0) {
-        return {{"values that are not finite", run.notFinite, 0.0}, {"warnings that there is no limit, missing", run.report.warnings.empty() ? 1.0 : 0.0, 0.0}, {"bounces traced", double(run.report.sweeps)}, {"mean irradiance, W/m^2", run.mean}};
+        return {contraction, {"values that are not finite", run.notFinite, 0.0}, {"warnings that there is no limit, missing", run.report.warnings.empty() ? 1.0 : 0.0, 0.0}, {"bounces traced", double(run.report.sweeps)}, {"mean irradiance, W/m^2", run.mean}};
     }
     const double exact = albedo / (1.0 - albedo) * 4.0 * 3.14159265358979 / 24.0;
-    return {{"bias against rho / (1 - rho), %", 100.0 * std::abs(run.mean / exact - 1.0), 1.0}, {"bounces traced", double(run.report.sweeps), 100.0}, {"values that are not finite", run.notFinite, 0.0}};
+    return {contraction, {"bias against rho / (1 - rho), %", 100.0 * std::abs(run.mean / exact - 1.0), 1.0}, {"bounces traced", double(run.report.sweeps), 100.0}, {"values that are not finite", run.notFinite, 0.0}};
 }
 
 }  // namespace
 
 std::vector<StressCase> bounceCases() {
     std::vector<StressCase> cases;
-    for (double albedo : {0.5, 0.9, 0.99, 0.999, 1.0}) {
+    for (double albedo : {0.5, 0.9, 0.99, 0.999, 1.0, 1.1}) {
         char name[64];
         std::snprintf(name, sizeof name, "a closed room of albedo %g", albedo);
         const char* claim = albedo < 1.0 ? "all bounces reach the closed form in at most 100 sweeps" : "no limit exists: the sum stays finite, and that is said";

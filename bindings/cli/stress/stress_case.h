@@ -42,6 +42,8 @@ std::vector<StressCase> precisionCases();
 std::vector<StressCase> bounceCases();
 std::vector<StressCase> brightnessCases();
 std::vector<StressCase> sceneCases();
+std::vector<StressCase> tailCases();
+std::vector<StressCase> movingCases();
 std::vector<StressCase> extremeCases();
 
 // All of them, group by group.

@@ -181,10 +181,10 @@ inline vec3 readRecords(const DepositLayout& layout, std::span<const float> depo
     return irradiance;
 }
 
-// Irradiance, W/m^2: the same, clamped at 0.
+// Irradiance, W/m^2: the same, not negative.
 inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, std::span<const uint> slots,
                            std::span<const float> weights, const ClvCoefficients& read) {
-    return max(readRecords(layout, deposits, slots, weights, read), vec3(0.0f));
+    return clvIrradianceFromSum(readRecords(layout, deposits, slots, weights, read));
 }
 inline vec3 readIrradiance(const DepositLayout& layout, std::span<const float> deposits, const SlotWeights& weights,
                            const ClvCoefficients& read) {

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <span>
 
+#include "../stages/record.h"
+#include "aligned.h"
 #include "packet_walk.h"
 #include "walk_order.h"
 
@@ -26,12 +28,13 @@ struct PacketDeposits {
     alignas(64) float dynamicity[kPacketLanes][8] = {};  // a side each: the ray's, on the sides that it lights
 };
 
-inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> rays, bool withDynamicity, PacketDeposits& out) {
+// most: see clvMostFlux.
+inline void packetDeposits(const DepositLayout& layout, float most, std::span<const ClvRay> rays, bool withDynamicity, PacketDeposits& out) {
     const int count = int(clvCoefficientCount(layout.storage));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ClvRay& ray = rays[i];
         float* value = out.value[i];
-        if (!clvIsFinite(ray.flux) || !clvIsFinite(ray.direction)) {  // such a ray adds nothing
+        if (!clvCarriesLight(ray)) {
             std::fill(std::begin(out.value[i]), std::end(out.value[i]), 0.0f);
             std::fill(std::begin(out.dynamicity[i]), std::end(out.dynamicity[i]), 0.0f);
             continue;
@@ -39,14 +42,14 @@ inline void packetDeposits(const DepositLayout& layout, std::span<const ClvRay> 
         const vec3 direction = layout.frame * ray.direction;
         const ClvCoefficients c = clvDepositCoefficients(layout.storage, direction);
         const float f[9] = {c.a.x, c.a.y, c.a.z, c.a.w, c.b.x, c.b.y, c.b.z, c.b.w, c.c};
+        const vec3 flux = clvChannelFlux(uint(layout.channels), ray, most);
         if (layout.channels == 1) {
-            const float flux = (ray.flux.x + ray.flux.y + ray.flux.z) * (1.0f / 3.0f);
-            for (int k = 0; k < count; ++k) value[k] = f[k] * flux;
+            for (int k = 0; k < count; ++k) value[k] = f[k] * flux.x;
         } else {
             for (int k = 0; k < count; ++k) {
-                value[3 * k] = f[k] * ray.flux.x;
-                value[3 * k + 1] = f[k] * ray.flux.y;
-                value[3 * k + 2] = f[k] * ray.flux.z;
+                value[3 * k] = f[k] * flux.x;
+                value[3 * k + 1] = f[k] * flux.y;
+                value[3 * k + 2] = f[k] * flux.z;
             }
         }
         if (withDynamicity) {
@@ -127,13 +130,14 @@ void injectStrided(const Level& level, const DepositLayout& layout, uint rule, s
     CrossingBuffer buffer;
     WalkOrder order;
     std::array<ClvRay, kPacketLanes> lanes;
+    const float most = clvMostFlux(rule, level.volume.cellSize);
     for (std::size_t begin = 0; begin < rays.size(); begin += WalkOrder::kBlock) {
         const auto block = rays.subspan(begin, std::min(WalkOrder::kBlock, rays.size() - begin));
         order.sort(level.volume, block);
         for (std::size_t first = 0; first < block.size(); first += kPacketLanes) {
             const auto filled = std::span(lanes).first(std::min<std::size_t>(kPacketLanes, block.size() - first));
             for (std::size_t i = 0; i < filled.size(); ++i) filled[i] = block[order[first + i]];
-            packetDeposits(layout, filled, !target.dynamicity.empty(), packet);
+            packetDeposits(layout, most, filled, !target.dynamicity.empty(), packet);
             auto flush = [&](CrossingBuffer& full) { depositCrossings<Stride>(level, filled, packet, full, target); };
             walkPacket(level, rule, filled, buffer, flush);
             flush(buffer);
@@ -141,17 +145,34 @@ void injectStrided(const Level& level, const DepositLayout& layout, uint rule, s
     }
 }
 
+inline void injectPiece(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
+    switch (layout.stride()) {
+        case 8: return injectStrided<8>(level, layout, rule, rays, target);
+        case 16: return injectStrided<16>(level, layout, rule, rays, target);
+        case 24: return injectStrided<24>(level, layout, rule, rays, target);
+        default: return injectStrided<32>(level, layout, rule, rays, target);
+    }
+}
+
 }  // namespace detail
 
+// Rays that add to the same floats before these are put aside: a float stops at 2^24 times an addend, and of 2^20 like ones it loses 2e-5.
+inline constexpr std::size_t kMostInOneSum = std::size_t(1) << 20;
+
 // Adds the rays' deposits to `target`. Serial: the order follows from the rays, so the sums are the same to the last bit from run to run.
-// Different targets may be filled from different threads.
+// Different targets may be filled from different threads. Beyond kMostInOneSum rays it allocates as much as the deposits.
+//
+// Of rays that are r times dimmer than the others in a cell, a sum loses more and more from some 2^24 / r bright ones on: rays that differ by more
+// than a hundred belong in targets of their own, which are added up afterwards. Those that the library draws carry equal flux.
 inline void inject(const Level& level, const DepositLayout& layout, uint rule, std::span<const ClvRay> rays, const DepositTarget& target) {
-    switch (layout.stride()) {
-        case 8: return detail::injectStrided<8>(level, layout, rule, rays, target);
-        case 16: return detail::injectStrided<16>(level, layout, rule, rays, target);
-        case 24: return detail::injectStrided<24>(level, layout, rule, rays, target);
-        default: return detail::injectStrided<32>(level, layout, rule, rays, target);
+    if (rays.size() <= kMostInOneSum) return detail::injectPiece(level, layout, rule, rays, target);
+    AlignedFloats sums(target.deposits.begin(), target.deposits.end());
+    for (std::size_t first = 0; first < rays.size(); first += kMostInOneSum) {
+        std::ranges::fill(target.deposits, 0.0f);
+        detail::injectPiece(level, layout, rule, rays.subspan(first, std::min(kMostInOneSum, rays.size() - first)), target);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += target.deposits[k];
     }
+    std::ranges::copy(sums, target.deposits.begin());
 }
 
 }  // namespace clv

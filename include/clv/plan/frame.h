@@ -182,7 +182,7 @@ inline bool frameBinds(const FrameUse& use) { return use.binding != FrameBinding
 inline std::uint32_t frameLayers(const Frame& frame, const FramePass& pass) {
     std::uint32_t layers = 0;
     for (const FrameUse& use : pass.uses) {
-        if (use.binding == FrameBinding::target) layers = std::max(layers, frame.buffers[use.buffer].image.extent.z);
+        if (use.binding == FrameBinding::target && use.buffer < frame.buffers.size()) layers = std::max(layers, frame.buffers[use.buffer].image.extent.z);
     }
     return layers;
 }

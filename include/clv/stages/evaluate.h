@@ -6,6 +6,7 @@
 #define CLV_STAGES_EVALUATE_H
 #include "../data/cell.h"
 #include "../data/light_volume.h"
+#include "../math/finite.h"
 CLV_NAMESPACE_BEGIN
 
 CLV_CONST uint kClvLookupNearest = 0u;    // the cell in front of the surface
@@ -101,6 +102,13 @@ CLV_FN vec3 clvFitSolve(CLV_INOUT(ClvFit) fit, float ridge) {
 
 // lambda of a slot: multiplies its raw deposits. `weight` is w, without the open volume.
 CLV_FN float clvFitShare(ClvFit fit, vec3 g, float weight, vec3 x) { return weight / fit.weight * (1.0f - dot(x - fit.mean, g)); }
+
+// The most irradiance that is read, W/m^2; the sum of two is a float.
+CLV_CONST float kClvMostIrradiance = 1.0e38f;
+
+// Irradiance from what was read, W/m^2: in [0, kClvMostIrradiance]. Numbers beyond the floats may cancel to NaN, which counts as the most.
+CLV_FN float clvIrradianceFromSum(float sum) { return clvIsNan(sum) ? kClvMostIrradiance : min(max(sum, 0.0f), kClvMostIrradiance); }
+CLV_FN vec3 clvIrradianceFromSum(vec3 sum) { return vec3(clvIrradianceFromSum(sum.x), clvIrradianceFromSum(sum.y), clvIrradianceFromSum(sum.z)); }
 
 // Static ambient term, W/m^2: fills what has less light than `threshold` (W/m^2, > 0), and fades out towards it.
 // It is added for pictures only; measured irradiance never contains it.

@@ -47,7 +47,7 @@ CLV_FN void clvSegmentAlongAxis(float direction, int cell, CLV_INOUT(float) orig
 
 CLV_FN ClvSegment clvSegmentFromRay(ClvVolume volume, uint channels, ClvRay ray, vec3 kept) {
     ClvWalk walk = clvWalkBegin(volume, ray);
-    if (walk.running == 0) return clvNoSegment();
+    if (walk.running == 0 || !clvCarriesLight(ray)) return clvNoSegment();
     ClvSegment segment;
     segment.origin = walk.origin;
     segment.tEnd = walk.tEnd;
@@ -55,7 +55,7 @@ CLV_FN ClvSegment clvSegmentFromRay(ClvVolume volume, uint channels, ClvRay ray,
     segment.start = ray.origin;
     segment.direction = ray.direction;
     segment.kept = kept;
-    segment.flux = clvChannelFlux(channels, ray);
+    segment.flux = clvChannelFlux(channels, ray, clvMostFlux(kClvInjectTrackLength, volume.cellSize));
     clvSegmentAlongAxis(ray.direction.x, walk.cell.x, segment.origin.x, segment.inverse.x);
     clvSegmentAlongAxis(ray.direction.y, walk.cell.y, segment.origin.y, segment.inverse.y);
     clvSegmentAlongAxis(ray.direction.z, walk.cell.z, segment.origin.z, segment.inverse.z);

@@ -127,12 +127,19 @@ CLV_FN float clvLargestDeposit(uint rule, uint turned, float cellSize) {
     return turned == 0u ? cellSize : 1.7320509f * cellSize;
 }
 
+// The most that a ray may add to a coefficient of a slot, W m. A float that numbers of at most this size are added to stops at 2^25 times it,
+// however many they are; the sum of 2^12 such floats is still finite.
+CLV_CONST float kClvMostDeposit = 1.2379400e27f;  // 2^90
+
+// Flux that a channel of a ray carries into a level at most, W: what it has beyond that is cut off, so that no sum is ever infinite.
+CLV_FN float clvMostFlux(uint rule, float cellSize) { return kClvMostDeposit / clvLargestDeposit(rule, 1u, cellSize); }
+
 // The largest scale, 1/(W m), with which no sum of the deposits of `rays` rays can overflow, whatever they do: each adds at most
 // largestFlux (W, of any channel of any ray) times largestDeposit, and half a unit of rounding.
 CLV_FN float clvFixedScale(float largestFlux, uint rays, float largestDeposit) {
     // The largest float below 2^31; a thousandth is left for lengths that were rounded up.
     float room = (2147483520.0f - 0.5f * float(rays)) * 0.999f;
-    return room / max(largestFlux * largestDeposit * float(rays), 1.0e-30f);
+    return room / max(min(largestFlux * largestDeposit, kClvMostDeposit) * float(rays), 1.0e-27f);
 }
 
 CLV_NAMESPACE_END

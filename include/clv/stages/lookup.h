@@ -98,7 +98,7 @@ CLV_READER_FN vec3 clvIrradianceAt(CLV_READER ClvVolume volume, ClvReceiver rece
     }
     // Where everything was culled, the hub alone, whichever side its centroid lies on.
     if (!(sum.volume > 0.0f) && hub.slot != kClvNoSlot) clvAddSlot(CLV_PASS_READER sum, format, read, firstRecord, hub.slot, hubSlot.openVolume, 1.0f);
-    return max(sum.light * (sum.volume > 0.0f ? 1.0f / sum.volume : 0.0f), vec3(0.0f, 0.0f, 0.0f));
+    return clvIrradianceFromSum(sum.light * (sum.volume > 0.0f ? 1.0f / sum.volume : 0.0f));
 }
 
 CLV_NAMESPACE_END

@@ -65,19 +65,26 @@ CLV_FN void clvAddToRecord(CLV_INOUT(ClvRecord) record, uint channels, ClvCoeffi
     clvAddCoefficients(record.b, x, flux.z * weight);
 }
 
-// Flux of a ray by channel: in a scene without colour the mean in x. A ray that is not finite has none.
-CLV_FN vec3 clvChannelFlux(uint channels, ClvRay ray) {
-    if (!clvIsFinite(ray.flux) || !clvIsFinite(ray.direction)) return vec3(0.0f, 0.0f, 0.0f);
-    if (channels == 1u) return vec3((ray.flux.x + ray.flux.y + ray.flux.z) * (1.0f / 3.0f), 0.0f, 0.0f);
-    return ray.flux;
+// Whether a ray can carry light: its flux is finite, and its direction of unit length, or nearly.
+CLV_FN bool clvCarriesLight(ClvRay ray) {
+    float squared = dot(ray.direction, ray.direction);
+    return clvIsFinite(ray.flux) && clvIsFinite(ray.direction) && squared > 0.25f && squared < 4.0f;
 }
 
-// What a ray adds to a record per metre. kept: its direction as cells keep it.
-CLV_FN ClvRecord clvRecordOfRay(uint storage, uint channels, ClvRay ray, vec3 kept) {
+// Flux of a ray by channel: in a scene without colour the mean in x. A ray that cannot carry light has none. What a channel has beyond
+// `most`, W, see clvMostFlux, is cut off.
+CLV_FN vec3 clvChannelFlux(uint channels, ClvRay ray, float most) {
+    if (!clvCarriesLight(ray)) return vec3(0.0f, 0.0f, 0.0f);
+    vec3 flux = min(max(ray.flux, vec3(-most, -most, -most)), vec3(most, most, most));
+    if (channels == 1u) return vec3((flux.x + flux.y + flux.z) * (1.0f / 3.0f), 0.0f, 0.0f);
+    return flux;
+}
+
+// What a ray adds to a record per metre. kept: its direction as cells keep it; most: see clvChannelFlux.
+CLV_FN ClvRecord clvRecordOfRay(uint storage, uint channels, ClvRay ray, vec3 kept, float most) {
     ClvRecord record = clvNoRecord();
-    vec3 flux = clvChannelFlux(channels, ray);
     // A direction that is not finite would make 0 * NaN.
-    if (dot(flux, flux) > 0.0f) clvAddToRecord(record, channels, clvDepositCoefficients(storage, kept), flux, 1.0f);
+    if (clvCarriesLight(ray)) clvAddToRecord(record, channels, clvDepositCoefficients(storage, kept), clvChannelFlux(channels, ray, most), 1.0f);
     return record;
 }
 

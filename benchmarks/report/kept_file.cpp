@@ -1,0 +1,19 @@
+#include "benchmarks/report/kept_file.h"
+
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace clv {
+
+void keepFile(const std::filesystem::path& file, std::string_view bytes) {
+    const std::filesystem::path unfinished = file.string() + ".unfinished";
+    std::ofstream output(unfinished, std::ios::binary);
+    output << bytes;
+    output.close();
+    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", unfinished.string()));
+    std::filesystem::rename(unfinished, file);
+}
+
+}  // namespace clv
