@@ -25,20 +25,26 @@ std::vector<double> numbersIn(const std::string& text) {
 
 }  // namespace
 
-CameraPose overview(const BakedVolume& volume, float aspect) {
-    const ClvVolume& grid = volume.cascades.back().level.volume;
-    const glm::vec3 extent = grid.cellSize * glm::vec3(grid.resolution);
+Bounds boundsOf(const ClvVolume& grid) {
+    return {grid.origin, grid.origin + grid.cellSize * glm::vec3(grid.resolution)};
+}
+
+CameraPose overview(const Bounds& bounds, float aspect) {
     CameraPose pose;
-    pose.target = grid.origin + 0.5f * extent;
+    pose.target = bounds.center();
     // So far that the sphere around the volume touches the sides of the picture.
     const float half = std::atan(std::tan(0.5f * pose.yfov) * std::min(1.0f, aspect));
-    const float distance = 0.5f * glm::length(extent) / std::sin(half);
+    const float distance = 0.5f * glm::length(bounds.extent()) / std::sin(half);
     pose.position = pose.target + distance * glm::normalize(glm::vec3(0.5f, 0.45f, 1.0f));
     return pose;
 }
 
 CameraPose poseOf(const Camera& camera) {
     return {camera.position, camera.position + camera.forward, camera.up, camera.yfov};
+}
+
+Camera cameraOf(const CameraPose& pose) {
+    return {.name = "view", .position = pose.position, .forward = glm::normalize(pose.target - pose.position), .up = pose.up, .yfov = pose.yfov};
 }
 
 CameraPose parsePose(const std::string& text, const BakedVolume& volume, const Scene* scene) {

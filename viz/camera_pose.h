@@ -14,9 +14,11 @@ struct CameraPose {
     float yfov = 0.6f;                                    // rad
 };
 
-// From outside, so that the whole volume fits in a picture of this aspect.
-CameraPose overview(const BakedVolume& volume, float aspect);
+Bounds boundsOf(const ClvVolume& grid);
+// From outside, so that all of it fits in a picture of this aspect.
+CameraPose overview(const Bounds& bounds, float aspect);
 CameraPose poseOf(const Camera& camera);
+Camera cameraOf(const CameraPose& pose);
 // The name or index of one of `scene`'s cameras (null: there are none), or px,py,pz,tx,ty,tz[,yfov] in world space. Throws InputError.
 CameraPose parsePose(const std::string& text, const BakedVolume& volume, const Scene* scene);
 

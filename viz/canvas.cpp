@@ -16,6 +16,8 @@ constexpr double kBackground[3] = {0.09, 0.09, 0.11};
 constexpr int kBarColors = 256, kTextSize = 13, kSmallestText = 8;
 constexpr double kLineHeight = 1.3;  // of the size of letters
 constexpr int kMargin = 5;           // pixels
+constexpr double kBarBottom = 0.06, kBarRoom = 0.14;  // of the window
+constexpr double kBarPixels = 112.0;                    // that the bar takes at least, with its labels
 // A renderer that is to be drawn this often or oftener is being turned; at rest VTK asks for far less.
 constexpr double kTurningRate = 1.0;  // frames/s
 
@@ -37,6 +39,9 @@ void setText(vtkTextProperty& text) {
     text.ItalicOff();
     text.BoldOff();
     text.ShadowOff();
+    // Readable where surfaces lie behind.
+    text.SetBackgroundColor(kBackground[0], kBackground[1], kBackground[2]);
+    text.SetBackgroundOpacity(0.6);
 }
 
 }  // namespace
@@ -47,10 +52,10 @@ Canvas::Canvas(vtkRenderWindow& window, double left, double right) : window_(win
     window.AddRenderer(renderer_);
     bar_->SetUnconstrainedFontSize(true);
     setText(*bar_->GetLabelTextProperty());
-    setText(*bar_->GetTitleTextProperty());
-    bar_->SetPosition(0.86, 0.08);
-    bar_->SetWidth(0.1);
-    bar_->SetHeight(0.8);
+    // VTK cuts a title that is wider than its bar.
+    setText(*barTitle_->GetTextProperty());
+    barTitle_->GetTextProperty()->SetJustificationToRight();
+    barTitle_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
     bar_->SetLabelFormat("%-#.3g");
     setText(*caption_->GetTextProperty());
     caption_->GetTextProperty()->SetVerticalJustificationToTop();
@@ -102,12 +107,26 @@ void Canvas::setPanel(const std::string& text) {
     panel_->GetTextProperty()->SetFontSize(std::clamp(int(window_.GetSize()[1] / lines / kLineHeight), kSmallestText, kTextSize));
 }
 
+void Canvas::placeBar() {
+    const int* size = window_.GetSize();
+    // Below the caption and the title; as wide as its labels need.
+    const double line = kTextSize * kLineHeight / size[1], top = std::min(barTop_, 1.0 - 2.5 * line);
+    const double room = std::max(kBarRoom, kBarPixels / (share_ * size[0]));
+    bar_->SetPosition(1.0 - room, kBarBottom);
+    bar_->SetWidth(0.72 * room);
+    bar_->SetHeight(top - kBarBottom);
+    barTitle_->SetPosition(0.985, top + 0.2 * line);
+}
+
 void Canvas::showScale(const std::optional<ColorScale>& scale) {
     renderer_->RemoveViewProp(bar_);
+    renderer_->RemoveViewProp(barTitle_);
     if (!scale) return;
+    placeBar();
     bar_->SetLookupTable(tableOf(*scale));
-    bar_->SetTitle(scale->title.c_str());
+    barTitle_->SetInput(scale->title.c_str());
     renderer_->AddViewProp(bar_);
+    renderer_->AddViewProp(barTitle_);
 }
 
 }  // namespace clv

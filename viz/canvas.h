@@ -28,19 +28,24 @@ public:
     // Lines of text at the left, below the caption.
     void setPanel(const std::string& text);
 
+    // Height below which the colour bar stays, as a share of the window: what is above it is taken.
+    void setBarTop(double top) { barTop_ = top; }
+
     vtkRenderer& renderer() { return *renderer_; }
 
 private:
+    void placeBar();
     void showScale(const std::optional<ColorScale>& scale);
     void prepareFrame();
 
     vtkRenderWindow& window_;
     const double share_;  // of the window's width
+    double barTop_ = 0.9;
     vtkNew<vtkRenderer> renderer_;
     CubeActors cubes_;
     std::vector<vtkSmartPointer<vtkProp>> props_;
     vtkNew<vtkScalarBarActor> bar_;
-    vtkNew<vtkTextActor> caption_, panel_;
+    vtkNew<vtkTextActor> caption_, panel_, barTitle_;
 };
 
 }  // namespace clv

@@ -5,8 +5,8 @@
 
 namespace clv {
 
-// Cubes whose faces are lit by what arrives on them: radiance of a white surface.
-void drawCubes(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor, Drawing& drawing);
+// Cubes whose faces are lit by what arrives on them, radiance of white surfaces, for these cells.
+void drawCubes(const std::vector<ShownCell>& cells, const View& view, Drawing& drawing);
 // The quantity in colours, on what the view says.
 void drawQuantity(const BakedVolume& volume, Quantity quantity, const View& view, const ParallelFor& parallelFor, Drawing& drawing);
 

@@ -26,6 +26,8 @@ std::string titleOf(Quantity quantity) {
     return kTitles[int(quantity)];
 }
 
+bool knowsVariance(const BakedVolume& volume) { return volume.cascades.front().estimates.size() > 1; }
+
 std::optional<ShownCell> shownCell(const BakedVolume& volume, uint cascade, const ivec3& cell, const CellFilter& filter) {
     const BakedCascade& baked = volume.cascades[cascade];
     const ClvVolume& grid = baked.level.volume;

@@ -17,6 +17,9 @@ std::string nameOf(Quantity quantity);
 // With the unit.
 std::string titleOf(Quantity quantity);
 
+// A single estimate says nothing of its variance.
+bool knowsVariance(const BakedVolume& volume);
+
 struct CellFilter {
     std::optional<uint> cascade;  // none: each place is shown by the finest cascade that holds it
     float threshold = 0.0f;       // W/m^2: cells none of whose sides receives more are left out

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "viz/cell_errors.h"
 #include "viz/cell_shapes.h"
 #include "viz/outlines.h"
 #include "viz/surface_shapes.h"
@@ -27,9 +28,12 @@ void drawProbe(const BakedVolume& volume, Quantity quantity, const View& view, D
 
 Drawing compose(const BakedVolume& volume, const World* world, const View& view, const ParallelFor& parallelFor) {
     Drawing drawing;
-    if (view.subject == Subject::cubes) drawCubes(volume, view, parallelFor, drawing);
-    if (const auto quantity = quantityOf(view.subject)) drawQuantity(volume, *quantity, view, parallelFor, drawing);
-    if (view.subject == Subject::error) drawError(volume, needed(world, view.subject), view, parallelFor, drawing);
+    const bool cellTruth = view.truth && (view.subject == Subject::cubes || view.subject == Subject::irradiance);
+    if (view.truth && !cellTruth && view.subject != Subject::mesh) throw InputError(fmt::format("--truth: expected --view cubes, irradiance or mesh, not {}", nameOf(view.subject)));
+    if (cellTruth) drawCellTruth(volume, needed(world, view.subject), view, parallelFor, drawing);
+    else if (view.subject == Subject::cubes) drawCubes(shownCells(volume, view.filter, parallelFor), view, drawing);
+    else if (const auto quantity = quantityOf(view.subject)) drawQuantity(volume, *quantity, view, parallelFor, drawing);
+    if (view.subject == Subject::error) (carrierOf(view) == Carrier::surfaces ? drawError : drawCellErrors)(volume, needed(world, view.subject), view, parallelFor, drawing);
     if (view.subject == Subject::mesh || view.mesh) drawMesh(volume, needed(world, Subject::mesh), view, parallelFor, drawing);
     if (view.subject == Subject::rays || view.rays > 0) drawRays(needed(world, Subject::rays), view, parallelFor, drawing);
     if (view.subject == Subject::texels || view.texels) drawTexels(needed(world, Subject::texels), view, parallelFor, drawing);

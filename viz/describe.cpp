@@ -20,8 +20,8 @@ std::string describeCell(const ShownCell& cell, const BakedVolume& volume) {
     text += "side   irradiance, W/m^2 (r, g, b)     std. error   dynamicity\n";
     for (std::size_t side = 0; side < kSides; ++side) {
         const vec3& e = cell.light.irradiance[side];
-        text += fmt::format("{}     {:<10.4g} {:<10.4g} {:<10.4g} {:<12.3g} {:.3g}\n", kSideNames[side], e.x, e.y, e.z, std::sqrt(cell.light.variance[side]),
-                            cell.light.dynamicity[side]);
+        const std::string error = knowsVariance(volume) ? fmt::format("{:.3g}", std::sqrt(cell.light.variance[side])) : "unknown";
+        text += fmt::format("{}     {:<10.4g} {:<10.4g} {:<10.4g} {:<12} {:.3g}\n", kSideNames[side], e.x, e.y, e.z, error, cell.light.dynamicity[side]);
     }
     return text;
 }

@@ -26,6 +26,7 @@ struct Drawing {
     FlatLines lines, thickLines;
     FlatPoints points;
     std::optional<ColorScale> scale;  // of the bar
+    std::optional<Exposure> exposure; // of radiance
     std::optional<Plot> plot;
     std::string caption;              // one line
 };

@@ -1,10 +1,10 @@
 #include "viz/inspector.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 
 #include "bindings/cli/options.h"
 #include "viz/camera_pose.h"
@@ -16,39 +16,72 @@
 namespace clv {
 namespace {
 
-constexpr int kFirstFrames = 8;            // of live light, before anything is shown
+constexpr SliderPlace kTimePlace{0.3, 0.7, 0.07};
+constexpr double kBarTopBelowSliders = 0.34;
+constexpr double kMiddle = 0.5;            // of what the mouse may hit of a frame
 constexpr unsigned long kFrameTime = 100;  // ms, of a series that plays
+
+// A file's name, with its folder where the other file has the same name.
+std::string shownName(const std::filesystem::path& file, const std::filesystem::path& other) {
+    return file.filename() != other.filename() ? file.filename() : file.parent_path().filename() / file.filename();
+}
 
 vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
 
 }  // namespace
 
 Inspector::Inspector(const VizOptions& options) : options_(options), view_(options.view), parallelFor_(parallelForOf({.threads = options.threads})) {
-    if (options.file.empty() && !(options.live && !options.scene.empty())) throw InputError("expected the file of a volume, or --live with --scene; see --help");
-    panes_.push_back(options.file.empty() ? std::make_unique<Pane>(options.scene) : std::make_unique<Pane>(options.file, options.scene, options.frame));
-    if (options.live) startLive();
+    check(options);
+    panes_.push_back(options.file.empty() ? std::make_shared<Pane>(options.scene) : std::make_shared<Pane>(options.file, options.scene, options.frame));
     window_->SetSize(options.width, options.height);
     // Smooth edges cost a processor that draws twice the time, which a window that turns does not have.
     if (options.out.empty()) window_->SetMultiSamples(0);
     window_->SetWindowName(("clv-viz " + options.file).c_str());
-    if (options.without) panes_.push_back(std::make_unique<Pane>(options.file, options.scene, options.frame));
-    if (!options.other.empty()) panes_.push_back(std::make_unique<Pane>(options.other, options.scene, options.frame));
+    if (options.without || options.truth) panes_.push_back(panes_[0]);
+    if (!options.other.empty()) {
+        panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0));
+        panes_[1]->loadFrame(options.frame);
+    }
+    placeCamera();
+    if (options.live.on) startLive();
     for (std::size_t k = 0; k < panes_.size(); ++k) {
         checkCascade(panes_[k]->volume());
         canvases_.push_back(std::make_unique<Canvas>(*window_, double(k) / double(panes_.size()), double(k + 1) / double(panes_.size())));
-        canvases_[k]->renderer().SetActiveCamera(canvases_[0]->renderer().GetActiveCamera());
+        canvases_[k]->renderer().SetActiveCamera(camera_);
     }
     frame_ = options.frame;
+    playing_ = options.play;
     composePanes();
-    resetCamera();
+    canvases_[0]->renderer().ResetCameraClippingRange();
 }
 
 void Inspector::startLive() {
-    if (!pane().world()) throw InputError("--live: expected the scene of the volume; name it with --scene");
-    live_ = std::make_unique<LiveMode>(*panes_[0], parallelFor_);
-    for (int frame = 0; frame < kFirstFrames; ++frame) live_->frame();
+    live_ = std::make_unique<LiveMode>(*panes_[0], options_.live, [this] { return viewCamera(); }, parallelFor_);
+    for (int frame = 0; frame < options_.live.frames; ++frame) live_->frame();
     view_.lights = true;
 }
+
+void Inspector::addTimeSlider() {
+    const std::size_t frames = pane().series().frames();
+    if (live_ || frames < 2) return;
+    const auto say = [this](double value) { return fmt::format("{} of {}, {:.3f} s", std::size_t(value), pane().series().frames(), pane().series().time(std::size_t(value))); };
+    const auto change = [this](double value) {
+        if (std::size_t(value) != frame_) showFrame(std::size_t(value));
+    };
+    time_ = std::make_unique<Slider>(*interactor_, kTimePlace, "frame", 0.0, double(frames) - 0.01, kMiddle + double(frame_), change, say);
+}
+
+Camera Inspector::viewCamera() {
+    const double* up = camera_->GetViewUp();
+    return {.name = "view",
+            .position = vecOf(camera_->GetPosition()),
+            .forward = normalize(vecOf(camera_->GetDirectionOfProjection())),
+            .up = normalize(vecOf(up)),
+            .yfov = float(glm::radians(camera_->GetViewAngle())),
+            .aspect = aspect()};
+}
+
+float Inspector::aspect() const { return float(options_.width) / float(options_.height) / float(panes_.size()); }
 
 void Inspector::checkCascade(const BakedVolume& volume) const {
     const std::size_t count = volume.cascades.size();
@@ -62,9 +95,8 @@ void Inspector::writePicture(const std::string& file) {
 
 void Inspector::turn(double degrees) {
     window_->SetDesiredUpdateRate(interactor_->GetDesiredUpdateRate());
-    vtkRenderer& renderer = canvases_[0]->renderer();
-    renderer.GetActiveCamera()->Azimuth(degrees);
-    renderer.ResetCameraClippingRange();
+    camera_->Azimuth(degrees);
+    canvases_[0]->renderer().ResetCameraClippingRange();
     window_->Render();
     window_->WaitForCompletion();
 }
@@ -88,31 +120,43 @@ void Inspector::interact() {
     onTimer->SetCallback([](vtkObject*, unsigned long, void* inspector, void*) { static_cast<Inspector*>(inspector)->tick(); });
     interactor_->AddObserver(vtkCommand::TimerEvent, onTimer);
     interactor_->CreateRepeatingTimer(kFrameTime);
-    if (live_) live_->addSliders(*interactor_);
+    if (live_) {
+        canvases_[0]->setBarTop(kBarTopBelowSliders);
+        live_->addSliders(*interactor_);
+    }
+    addTimeSlider();
     window_->Render();
     interactor_->Start();
 }
 
-Drawing Inspector::drawingOf(std::size_t pane) const {
+Drawing Inspector::drawingOf(std::size_t pane, const Drawing* beside) const {
     const Pane& shown = *panes_[pane];
     const bool difference = options_.difference && pane == 1;
-    Drawing drawing = difference ? composeDifference(panes_[0]->volume(), shown.volume(), view_, parallelFor_) : compose(shown.volume(), shown.world(), viewOf(pane), parallelFor_);
-    if (!options_.other.empty()) drawing.caption = fmt::format("{}: {}", shown.file(), drawing.caption);
-    if (shown.series().frames() > 1) drawing.caption += fmt::format("; frame {} of {}, {:.3f} s", frame_, shown.series().frames(), shown.series().time(frame_));
+    Drawing drawing = difference ? composeDifference(panes_[0]->volume(), shown.volume(), view_, parallelFor_) : compose(shown.volume(), shown.world(), viewOf(pane, beside), parallelFor_);
+    if (!options_.other.empty()) drawing.caption = fmt::format("{}: {}", shownName(shown.file(), panes_[1 - pane]->file()), drawing.caption);
+    if (const std::size_t frames = shown.series().frames(); frames > 1) {
+        const std::size_t frame = std::min(frame_, frames - 1);
+        drawing.caption += fmt::format("; frame {} of {}, {:.3f} s", frame, frames, shown.series().time(frame));
+    }
     if (live_ && pane == 0) drawing.caption += fmt::format("\n{}", live_->times());
     return drawing;
 }
 
-View Inspector::viewOf(std::size_t pane) const {
+View Inspector::viewOf(std::size_t pane, const Drawing* beside) const {
     View view = view_;
     if (options_.without && pane == 0) view.indirect = false;
+    view.truth = options_.truth && pane == 1;
+    if (beside && beside->scale && !view.range) view.range = {beside->scale->lo, beside->scale->hi};
+    if (beside) view.fixedExposure = beside->exposure;
     return view;
 }
 
 void Inspector::composePanes() {
-    for (std::size_t k = 0; k < panes_.size(); ++k) {
-        canvases_[k]->show(drawingOf(k));
-    }
+    // Of a view with and without indirect light, that with it says how bright both are.
+    const std::size_t first = options_.without ? 1 : 0;
+    const Drawing drawing = drawingOf(first, nullptr);
+    canvases_[first]->show(drawing);
+    if (panes_.size() > 1) canvases_[1 - first]->show(drawingOf(1 - first, &drawing));
     showPanels();
 }
 
@@ -128,8 +172,13 @@ void Inspector::refresh() {
         composePanes();
     } catch (const InputError& error) {
         // A key asked for what this file cannot show.
-        canvases_[0]->setPanel(error.what());
+        return say(error);
     }
+    window_->Render();
+}
+
+void Inspector::say(const InputError& error) {
+    canvases_[0]->setPanel(error.what());
     window_->Render();
 }
 
@@ -140,8 +189,8 @@ void Inspector::togglePlane(int axis) {
         // Off the middle by a quarter of a cell: a wall often stands there, on a face between cells.
         slices.push_back({axis, grid.origin[axis] + (0.5 * grid.resolution[axis] + 0.25) * grid.cellSize + pane().volume().anchor[axis]});
     }
-    view_.carrier = slices.empty() ? Carrier::cells : Carrier::slices;
-    if (!quantityOf(view_.subject)) view_.subject = Subject::irradiance;
+    view_.carrier.reset();
+    if (!quantityOf(view_.subject) && view_.subject != Subject::error) view_.subject = Subject::irradiance;
     refresh();
 }
 
@@ -151,29 +200,49 @@ void Inspector::toggleHelp() {
     window_->Render();
 }
 
-void Inspector::resetCamera() {
-    const float aspect = float(options_.width) / float(options_.height) / float(panes_.size());
+void Inspector::placeCamera() {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
-    vtkRenderer& renderer = canvases_[0]->renderer();
-    place(*renderer.GetActiveCamera(), options_.camera.empty() ? overview(pane().volume(), aspect) : parsePose(options_.camera, pane().volume(), scene));
-    renderer.ResetCameraClippingRange();
+    // Cascades that follow the view would lead it ever farther away.
+    const Bounds bounds = options_.live.on && scene ? scene->bounds : boundsOf(pane().volume().cascades.back().level.volume);
+    place(*camera_, options_.camera.empty() ? overview(bounds, aspect()) : parsePose(options_.camera, pane().volume(), scene));
+}
+
+void Inspector::resetCamera() {
+    placeCamera();
+    canvases_[0]->renderer().ResetCameraClippingRange();
+    window_->Render();
 }
 
 void Inspector::showFrame(std::size_t frame) {
     if (live_) return;
     frame_ = std::min(frame, pane().series().frames() - 1);
-    for (const auto& pane : panes_) pane->loadFrame(frame_);
-    refresh();
+    if (time_) time_->set(kMiddle + double(frame_));
+    try {
+        panes_[0]->loadFrame(frame_);
+        if (panes_.back() != panes_[0]) panes_.back()->loadFrame(frame_);
+        refresh();
+    } catch (const InputError& error) {
+        playing_ = false;
+        say(error);
+    }
 }
 
 void Inspector::togglePlaying() {
     playing_ = !playing_;
 }
 
+void Inspector::toggleFollowing() {
+    if (live_) live_->toggleFollowing();
+}
+
 void Inspector::tick() {
     if (live_) {
-        live_->frame();
-        refresh();
+        try {
+            live_->frame();
+            refresh();
+        } catch (const InputError& error) {
+            say(error);
+        }
     }
     if (playing_) showFrame(frame_ + 1 < pane().series().frames() ? frame_ + 1 : 0);
 }
@@ -193,7 +262,7 @@ std::size_t Inspector::paneAt(int x) const {
 
 Sight Inspector::sightAt(int x, int y, std::size_t pane) {
     vtkRenderer& renderer = canvases_[pane]->renderer();
-    const vec3 eye = vecOf(renderer.GetActiveCamera()->GetPosition());
+    const vec3 eye = vecOf(camera_->GetPosition());
     renderer.SetDisplayPoint(x, y, 1.0);
     renderer.DisplayToWorld();
     const double* far = renderer.GetWorldPoint();
@@ -203,14 +272,14 @@ Sight Inspector::sightAt(int x, int y, std::size_t pane) {
 bool Inspector::grab(int x, int y) {
     const std::size_t pane = paneAt(x);
     if (live_ && live_->grabLight(sightAt(x, y, pane))) return true;
-    if (view_.carrier != Carrier::slices) return false;
+    if (carrierOf(view_) != Carrier::slices) return false;
     grabbed_ = pickAlong(panes_[pane]->volume(), panes_[pane]->world(), view_, sightAt(x, y, pane), parallelFor_);
     if (grabbed_ && !grabbed_->slice) grabbed_.reset();
     return grabbed_.has_value();
 }
 
 vec3 Inspector::screenNormal() {
-    return vecOf(canvases_[0]->renderer().GetActiveCamera()->GetDirectionOfProjection());
+    return vecOf(camera_->GetDirectionOfProjection());
 }
 
 void Inspector::drag(int x, int y) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
@@ -39,6 +40,7 @@ public:
     void showFrame(std::size_t frame);
     std::size_t frame() const { return frame_; }
     void togglePlaying();
+    void toggleFollowing();
     void toggleProbe();
     void close() { interactor_->TerminateApp(); }
 
@@ -51,25 +53,37 @@ private:
     void drag(int x, int y);
     void click(int x, int y);
     void key(const std::string& symbol);
-    Drawing drawingOf(std::size_t pane) const;
-    // The view in common, or its counterpart without indirect light.
-    View viewOf(std::size_t pane) const;
+    // `beside`: the other pane's, whose scale and exposure this one shares; null: it follows its own values.
+    Drawing drawingOf(std::size_t pane, const Drawing* beside) const;
+    // The view in common, or its counterpart without indirect light, or by path tracing.
+    View viewOf(std::size_t pane, const Drawing* beside) const;
     void composePanes();
     void showPanels();
     void tick();
     void startLive();
+    void addTimeSlider();
+    // Width over height of a pane.
+    float aspect() const;
+    // Where the options say.
+    void placeCamera();
+    // The view's, for the light to follow.
+    Camera viewCamera();
+    // Shows what is wrong in place of the panel's text.
+    void say(const InputError& error);
     vec3 screenNormal();
 
     const VirtualDisplay display_;  // outlives the window
     VizOptions options_;
     View view_;
     ParallelFor parallelFor_;
-    std::vector<std::unique_ptr<Pane>> panes_;
+    std::vector<std::shared_ptr<Pane>> panes_;  // the same one twice, where it is shown in two ways
+    vtkNew<vtkCamera> camera_;      // of all panes
     vtkNew<vtkRenderWindow> window_;
     std::vector<std::unique_ptr<Canvas>> canvases_;  // a pane each
     vtkNew<vtkRenderWindowInteractor> interactor_;
     vtkNew<MouseStyle> style_;
     std::unique_ptr<LiveMode> live_;  // null: the light is that of the file
+    std::unique_ptr<Slider> time_;    // null: there is one frame
     std::optional<Pick> picked_;    // the last click
     std::optional<Pick> grabbed_;   // what the mouse drags
     std::size_t frame_ = 0;

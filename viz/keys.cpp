@@ -31,6 +31,10 @@ void nextCascade(Inspector& inspector) {
     inspector.refresh();
 }
 
+void nextCarrier(View& view) {
+    view.carrier = Carrier((int(carrierOf(view)) + 1) % (view.subject == Subject::error ? 4 : 3));
+}
+
 std::vector<Key> makeKeys() {
     std::vector<Key> keys;
     keys.push_back({"h", "h", "this help", [](Inspector& i) { i.toggleHelp(); }});
@@ -38,7 +42,7 @@ std::vector<Key> makeKeys() {
         const std::string digit = std::to_string((k + 1) % 10);
         keys.push_back({digit, digit, nameOf(Subject(k)), changing([k](View& view) { view.subject = Subject(k); })});
     }
-    keys.push_back({"o", "o", "quantities on cells, slices, as a volume", changing([](View& view) { view.carrier = Carrier((int(view.carrier) + 1) % 3); })});
+    keys.push_back({"o", "o", "quantities on cells, slices, as a volume; the error on surfaces, too", changing(nextCarrier)});
     for (int axis = 0; axis < 3; ++axis) {
         const std::string name(1, char('x' + axis));
         keys.push_back({name, name, "slicing plane across " + name + ", on and off", [axis](Inspector& i) { i.togglePlane(axis); }});
@@ -66,6 +70,7 @@ std::vector<Key> makeKeys() {
     keys.push_back({"Left", "left", "frame before", [](Inspector& i) { i.showFrame(i.frame() > 0 ? i.frame() - 1 : 0); }});
     keys.push_back({"Home", "home", "first frame", [](Inspector& i) { i.showFrame(0); }});
     keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames()); }});
+    keys.push_back({"u", "u", "live: cascades follow the view, or stay", [](Inspector& i) { i.toggleFollowing(); }});
     keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
     keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
     return keys;
@@ -80,7 +85,7 @@ const std::vector<Key>& keys() {
 
 std::string keyHelp() {
     std::string help =
-        "left button    turn; click: what is there; drag a slicing plane, or a lamp in live mode\n"
+        "left button    turn; click: what is there; drag a slicing plane, a slider, or a lamp in live mode\n"
         "middle, right  pan, zoom\n";
     for (const Key& key : keys()) help += fmt::format("{:<14} {}\n", key.shown, key.meaning);
     return help;

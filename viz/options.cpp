@@ -57,19 +57,18 @@ void addWhat(CLI::App& app, VizOptions& options) {
     std::vector<std::string> names;
     for (int i = 0; i < kSubjects; ++i) names.push_back(nameOf(Subject(i)));
     app.add_option_function<std::string>("--view", [&view](const std::string& name) { view.subject = subjectOf(name); },
-                                         "What to look at; cubes: irradiance on six sides; error: against path tracing, on surfaces")
+                                         "What to look at; cubes: irradiance on six sides; error: against path tracing")
         ->check(CLI::IsMember(names))
         ->default_str("cubes");
-    static const std::map<std::string, Carrier> kCarriers = {{"cells", Carrier::cells}, {"slices", Carrier::slices}, {"volume", Carrier::volume}};
+    static const std::map<std::string, Carrier> kCarriers = {{"cells", Carrier::cells}, {"slices", Carrier::slices}, {"volume", Carrier::volume}, {"surfaces", Carrier::surfaces}};
     app.add_option_function<std::string>("--on", [&view](const std::string& name) { view.carrier = kCarriers.at(name); },
-                                         "What carries the colours of a quantity")
+                                         "What carries the colours of a quantity; surfaces: of the error alone")
         ->check(CLI::IsMember(kCarriers))
-        ->default_str("cells, or slices with --slice");
+        ->default_str("slices with --slice; else of the error surfaces, of all others cells");
     app.add_option_function<std::vector<std::string>>(
            "--slice",
            [&view](const std::vector<std::string>& places) {
                for (const std::string& place : places) view.slices.push_back(sliceOf(place));
-               view.carrier = Carrier::slices;
            },
            "Planes across the axes, m: x=0.5 z=1.2")
         ->take_all();
@@ -101,17 +100,18 @@ void addBeside(CLI::App& app, View& view) {
     app.add_flag("!--no-plane-culling", view.lookup.planeCulling, "Read cells behind a surface, too");
     app.add_flag("!--no-visibility", view.lookup.visibility, "Read cells that a surface does not see, too");
     app.add_option("--exposure", view.exposure, "Brightness, powers of two")->check(finiteNumber(-64.0, 64.0, "a number above -64 and at most 64"));
-    addCountOption(app, "--error-samples", view.errorSamples, "Paths a point where errors are shown");
+    addCountOption(app, "--error-samples", view.errorSamples, "Paths a point, or a side of a cell, where errors are shown");
 }
 
 }  // namespace
 
 void addVizOptions(CLI::App& app, VizOptions& options) {
     app.add_option("volume", options.file, "A .vtm or .pvd file of clv bake");
-    app.add_flag("--live", options.live, "Compute the light of the scene here, frame by frame; needs no file with --scene");
+    addLiveOptions(app, options.live);
     auto* other = app.add_option("other", options.other, "A second one, shown beside the first with the same camera");
     app.add_flag("--difference", options.difference, "Show how the first differs from the second, in place of the second")->needs(other);
     app.add_flag("--without", options.without, "Show the view without indirect light on its left")->excludes(other);
+    app.add_flag("--truth", options.truth, "Show cubes, irradiance or mesh by path tracing on its right")->excludes(other);
     addFigureOption(app, options);
     app.add_option("--scene", options.scene, "The scene of the volume, where its file has moved");
     addWhat(app, options);
@@ -127,8 +127,18 @@ void addVizOptions(CLI::App& app, VizOptions& options) {
         ->take_all();
     app.add_option("--out", options.out, "Write a picture (PNG) in place of opening a window; needs no display");
     app.add_flag("--benchmark", options.benchmark, "Print how fast the volume opens and turns, and its memory, in place of opening a window");
-    app.add_option("--frame", options.frame, "Of a series, from 0");
+    app.add_option("--frame", options.frame, "Of a series: the frame that is shown first, from 0");
+    app.add_flag("--play", options.play, "Of a series: play it in the window");
     app.add_option("--threads", options.threads, "Threads to use; 0: all of the machine's")->check(CLI::Range(0, kMostThreads))->capture_default_str();
+}
+
+void check(const VizOptions& options) {
+    const LiveOptions& live = options.live;
+    if (options.file.empty() && !(live.on && !options.scene.empty())) throw InputError("expected the file of a volume, or --live with --scene; see --help");
+    if (live.on && (!options.other.empty() || options.without || options.truth)) throw InputError("--live: expected one volume, without another beside it");
+    if (options.without && options.truth) throw InputError("--without: expected it without --truth: there is room for one view beside this one");
+    if (options.view.carrier == Carrier::surfaces && options.view.subject != Subject::error)
+        throw InputError("--on surfaces: expected --view error; --view mesh shows the irradiance there");
 }
 
 }  // namespace clv

@@ -4,8 +4,7 @@
 
 namespace clv {
 
-Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame) : file_(file), series_(file) {
-    loadFrame(frame);
+Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame) : file_(file), series_(file), volume_(series_.load(frame)) {
     try {
         world_.emplace(volume_, scene);
     } catch (const InputError&) {
@@ -16,6 +15,7 @@ Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame)
 Pane::Pane(const std::string& scene) : file_(scene) {
     const Scene loaded = loadScene(scene);
     volume_.scene = scene;
+    volume_.mark = markOf(loaded);
     volume_.anchor = loaded.anchor;
     volume_.lights = loaded.lights;
     if (!loaded.cameras.empty()) volume_.camera = loaded.cameras.front();

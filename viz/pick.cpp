@@ -58,10 +58,11 @@ void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& n
 
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor) {
     Nearest nearest;
-    const bool cells = view.subject == Subject::cubes || quantityOf(view.subject);
-    const bool surfaces = view.mesh || view.subject == Subject::mesh || view.subject == Subject::error;
-    if (cells && view.carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
-    if (cells && view.carrier == Carrier::cells) offerCells(volume, view, sight, parallelFor, nearest);
+    const Carrier carrier = carrierOf(view);
+    const bool error = view.subject == Subject::error, quantity = error || quantityOf(view.subject);
+    const bool surfaces = view.mesh || view.subject == Subject::mesh || (error && carrier == Carrier::surfaces);
+    if (quantity && carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
+    if (view.subject == Subject::cubes || (quantity && carrier == Carrier::cells)) offerCells(volume, view, sight, parallelFor, nearest);
     if (world && (surfaces || !nearest.pick)) offerSurface(*world, view.backs, sight, nearest);
     return nearest.pick;
 }

@@ -1,5 +1,7 @@
 #include "viz/picture_file.h"
 
+#include <stdexcept>
+
 #include <fmt/format.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
@@ -7,7 +9,6 @@
 #include <vtkWindowToImageFilter.h>
 
 #include "bindings/cli/staged_output.h"
-#include "bindings/scene/scene.h"
 
 namespace clv {
 
@@ -21,7 +22,7 @@ void writePicture(vtkRenderWindow& window, const std::string& file) {
     writer->SetInputConnection(pixels->GetOutputPort());
     writer->SetFileName(staged.path().c_str());
     writer->Write();
-    if (writer->GetErrorCode() != vtkErrorCode::NoError) throw InputError(fmt::format("{}: cannot be written: {}", file, vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
+    if (writer->GetErrorCode() != vtkErrorCode::NoError) throw std::runtime_error(fmt::format("{}: cannot be written: {}", file, vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
     staged.commit();
 }
 

@@ -6,7 +6,7 @@
 
 namespace clv {
 
-// Draws the window and writes it as PNG, complete or not at all. Throws InputError.
+// Draws the window and writes it as PNG, complete or not at all. Throws InputError where it cannot be, and std::runtime_error where there is no room.
 void writePicture(vtkRenderWindow& window, const std::string& file);
 
 }  // namespace clv

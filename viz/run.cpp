@@ -7,7 +7,9 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include "bindings/cli/options.h"
 #include "viz/benchmark.h"
+#include "viz/camera_pose.h"
 #include "viz/describe.h"
 #include "viz/inspector.h"
 #include "viz/options.h"
@@ -25,8 +27,21 @@ int fail(int status, std::string message) {
     return status;
 }
 
+// Of the file, or as live light leaves it.
+BakedVolume volumeOf(const VizOptions& options) {
+    if (!options.live.on) return Series(options.file).load(options.frame);
+    const auto pane = options.file.empty() ? std::make_unique<Pane>(options.scene) : std::make_unique<Pane>(options.file, options.scene, options.frame);
+    const auto view = [&] {
+        const Scene& scene = pane->world()->scene();
+        return cameraOf(options.camera.empty() ? overview(scene.bounds, float(options.width) / float(options.height)) : parsePose(options.camera, pane->volume(), &scene));
+    };
+    LiveMode live(*pane, options.live, view, parallelForOf({.threads = options.threads}));
+    for (int frame = 0; frame < options.live.frames; ++frame) live.frame();
+    return pane->volume();
+}
+
 void printPicks(const VizOptions& options) {
-    const BakedVolume volume = Series(options.file).load(options.frame);
+    const BakedVolume volume = volumeOf(options);
     for (const std::vector<double>& n : options.picks) {
         Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
         if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
@@ -35,6 +50,7 @@ void printPicks(const VizOptions& options) {
 }
 
 void run(const VizOptions& options) {
+    check(options);
     if (!options.picks.empty()) printPicks(options);
     if (!options.picks.empty() && options.out.empty()) return;
     if (options.benchmark) return benchmarkViewer(options);

@@ -17,4 +17,9 @@ Series::Series(const std::string& file) {
     for (SeriesStep& step : steps_) step.vtm = (fs::path(file).parent_path() / step.vtm).string();
 }
 
+BakedVolume Series::load(std::size_t frame) const {
+    if (frame >= frames()) throw InputError(fmt::format("--frame {}: expected a number below {}", frame, frames()));
+    return readVolume(steps_[frame].vtm);
+}
+
 }  // namespace clv

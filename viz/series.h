@@ -18,7 +18,7 @@ public:
     std::size_t frames() const { return steps_.size(); }
     double time(std::size_t frame) const { return steps_[frame].time; }  // s
     // Throws InputError.
-    BakedVolume load(std::size_t frame) const { return readVolume(steps_[frame].vtm); }
+    BakedVolume load(std::size_t frame) const;
 
 private:
     std::vector<SeriesStep> steps_;

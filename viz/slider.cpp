@@ -12,17 +12,18 @@ constexpr double kLeft = 0.78, kRight = 0.97, kTop = 0.92, kRowHeight = 0.1;
 
 }  // namespace
 
-Slider::Slider(vtkRenderWindowInteractor& interactor, int row, const std::string& title, double lo, double hi, double value,
+SliderPlace sliderInColumn(int row) { return {kLeft, kRight, kTop - row * kRowHeight}; }
+
+Slider::Slider(vtkRenderWindowInteractor& interactor, const SliderPlace& place, const std::string& title, double lo, double hi, double value,
                std::function<void(double)> change, std::function<std::string(double)> show)
     : title_(title), change_(std::move(change)), show_(std::move(show)) {
-    const double y = kTop - row * kRowHeight;
     shape_->SetMinimumValue(lo);
     shape_->SetMaximumValue(hi);
     shape_->SetValue(value);
     shape_->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
-    shape_->GetPoint1Coordinate()->SetValue(kLeft, y);
+    shape_->GetPoint1Coordinate()->SetValue(place.left, place.height);
     shape_->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
-    shape_->GetPoint2Coordinate()->SetValue(kRight, y);
+    shape_->GetPoint2Coordinate()->SetValue(place.right, place.height);
     shape_->ShowSliderLabelOff();
     shape_->SetTitleHeight(0.018);
     shape_->SetSliderLength(0.015);
@@ -30,7 +31,7 @@ Slider::Slider(vtkRenderWindowInteractor& interactor, int row, const std::string
     shape_->SetEndCapLength(0.0);
     shape_->GetTitleProperty()->SetColor(0.92, 0.92, 0.92);
     shape_->GetTitleProperty()->ShadowOff();
-    shape_->SetTitleText((title_ + ": " + show_(value)).c_str());
+    say();
     widget_->SetInteractor(&interactor);
     widget_->SetRepresentation(shape_);
     widget_->SetAnimationModeToJump();
@@ -45,8 +46,17 @@ Slider::~Slider() {
     widget_->EnabledOff();
 }
 
-void Slider::changed() {
+void Slider::set(double value) {
+    shape_->SetValue(value);
+    say();
+}
+
+void Slider::say() {
     shape_->SetTitleText((title_ + ": " + show_(shape_->GetValue())).c_str());
+}
+
+void Slider::changed() {
+    say();
     change_(shape_->GetValue());
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/report/metrics.h"
+#include "bindings/cli/progress.h"
 #include "bindings/embree/path_tracer.h"
 #include "clv/math/constants.h"
 #include "viz/scene_mesh.h"
@@ -38,9 +39,20 @@ FlatTriangles shapeOf(const SceneMesh& mesh) {
     return shape;
 }
 
+// W/m^2 by path tracing, without direct light.
+std::vector<vec3> pathTraced(const BakedVolume& volume, const World& world, const SceneMesh& mesh, std::uint64_t samples, const ParallelFor& parallelFor) {
+    std::vector<ReferencePoint> points;
+    for (const ClvReceiver& receiver : mesh.receivers) points.push_back({receiver.position, receiver.normal});
+    std::vector<ReferenceResult> results(points.size());
+    Progress progress("path tracing surfaces");
+    referenceIrradiance(world.embree(), points, {.allBounces = volume.allBounces, .samplesPerPoint = samples}, Progress::watch(parallelFor, [&](double share) { progress.update(share); }), results);
+    std::vector<vec3> truth;
+    for (const ReferenceResult& result : results) truth.push_back(result.irradiance);
+    return truth;
+}
+
 // Colours of fluxes on the screen, brighter for more.
-std::vector<glm::u8vec3> fluxColors(const std::vector<vec3>& flux, double stops) {
-    const Exposure exposure = exposureFor(flux, stops);
+std::vector<glm::u8vec3> fluxColors(const std::vector<vec3>& flux, const Exposure& exposure) {
     std::vector<glm::u8vec3> colors;
     for (const vec3& f : flux) colors.push_back(screenColor(f, exposure));
     return colors;
@@ -49,8 +61,10 @@ std::vector<glm::u8vec3> fluxColors(const std::vector<vec3>& flux, double stops)
 }  // namespace
 
 void drawMesh(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
-    const SceneMesh mesh = meshOf(world.scene(), kMeshParts, view.backs);
-    const std::vector<vec3> indirect = view.indirect ? readVolume(volume, mesh, view.lookup, parallelFor) : std::vector<vec3>(mesh.points.size(), vec3(0.0f));
+    const SceneMesh mesh = meshOf(world.scene(), view.truth ? kErrorParts : kMeshParts, view.backs);
+    const std::vector<vec3> indirect = !view.indirect ? std::vector<vec3>(mesh.points.size(), vec3(0.0f))
+                                       : view.truth ? pathTraced(volume, world, mesh, view.errorSamples, parallelFor)
+                                                    : readVolume(volume, mesh, view.lookup, parallelFor);
     const std::vector<vec3> radiance = perVertex(mesh, parallelFor, [&](std::size_t i) {
         const ClvReceiver& receiver = mesh.receivers[i];
         const vec3 direct = view.direct ? directIrradiance(world.embree(), receiver.position, receiver.normal) : vec3(0.0f);
@@ -58,19 +72,14 @@ void drawMesh(const BakedVolume& volume, const World& world, const View& view, c
     });
     if (view.subject == Subject::mesh) drawing.caption = fmt::format("radiance of the surfaces under {}", view.indirect ? view.direct ? "direct and indirect light" : "indirect light" : view.direct ? "direct light" : "no light");
     drawing.mesh = shapeOf(mesh);
-    drawing.mesh.colors = fluxColors(radiance, view.exposure);
+    drawing.exposure = view.fixedExposure.value_or(exposureFor(radiance, view.exposure));
+    drawing.mesh.colors = fluxColors(radiance, *drawing.exposure);
 }
 
 void drawError(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     const SceneMesh mesh = meshOf(world.scene(), kErrorParts, view.backs);
     const std::vector<vec3> estimate = readVolume(volume, mesh, view.lookup, parallelFor);
-    std::vector<ReferencePoint> points;
-    for (const ClvReceiver& receiver : mesh.receivers) points.push_back({receiver.position, receiver.normal});
-    std::vector<ReferenceResult> results(points.size());
-    referenceIrradiance(world.embree(), points, {.allBounces = volume.allBounces, .samplesPerPoint = view.errorSamples}, parallelFor, results);
-    std::vector<vec3> truth;
-    for (const ReferenceResult& result : results) truth.push_back(result.irradiance);
-    const std::vector<float> errors = pointErrors(estimate, truth);
+    const std::vector<float> errors = pointErrors(estimate, pathTraced(volume, world, mesh, view.errorSamples, parallelFor));
     drawing.caption = "error of the volume at surfaces, as a share of the path-traced irradiance";
     drawing.scale = scaleFor("error / truth", errors);
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
@@ -82,7 +91,7 @@ void drawRays(const World& world, const View& view, const ParallelFor& parallelF
     const std::vector<ClvRay> rays = world.rays(view.rays > 0 ? view.rays : kFewRays, 1, parallelFor);
     std::vector<vec3> flux;
     for (const ClvRay& ray : rays) flux.push_back(ray.flux);
-    std::vector<glm::u8vec3> colors = fluxColors(flux, view.exposure);
+    std::vector<glm::u8vec3> colors = fluxColors(flux, exposureFor(flux, view.exposure));
     if (view.rayColor == RayColor::dynamicity) {
         drawing.scale = ColorScale{"dynamicity", 0.0, 1.0};
         for (std::size_t i = 0; i < rays.size(); ++i) colors[i] = drawing.scale->color(rays[i].dynamicity);
@@ -97,7 +106,7 @@ void drawTexels(const World& world, const View& view, const ParallelFor& paralle
         drawing.points.points.push_back(texel.position);
         flux.push_back(texel.flux);
     }
-    drawing.points.colors = fluxColors(flux, view.exposure);
+    drawing.points.colors = fluxColors(flux, exposureFor(flux, view.exposure));
     if (view.subject == Subject::texels) drawing.caption = fmt::format("{} lit texels of the lights' maps, in the colour of the flux that they reflect", flux.size());
 }
 

@@ -18,6 +18,12 @@ Subject subjectOf(const std::string& name) {
     return Subject(std::ranges::find(kNames, name) - std::begin(kNames));
 }
 
+Carrier carrierOf(const View& view) {
+    const bool error = view.subject == Subject::error;
+    if (view.carrier && (error || view.carrier != Carrier::surfaces)) return *view.carrier;
+    return !view.slices.empty() ? Carrier::slices : error ? Carrier::surfaces : Carrier::cells;
+}
+
 std::optional<Quantity> quantityOf(Subject subject) {
     const int index = int(subject) - int(Subject::irradiance);
     return index >= 0 && index < kQuantities ? std::optional(Quantity(index)) : std::nullopt;

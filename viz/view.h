@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "bindings/image/tone_map.h"
 #include "viz/cells.h"
 
 namespace clv {
@@ -19,8 +20,8 @@ std::string nameOf(Subject subject);
 Subject subjectOf(const std::string& name);
 std::optional<Quantity> quantityOf(Subject subject);
 
-// What carries the colours of a quantity.
-enum class Carrier { cells, slices, volume };
+// What carries the colours of a quantity; surfaces: of the error alone.
+enum class Carrier { cells, slices, volume, surfaces };
 
 // A plane across an axis.
 struct SlicePlane {
@@ -32,7 +33,7 @@ enum class RayColor { flux, dynamicity };
 
 struct View {
     Subject subject = Subject::cubes;
-    Carrier carrier = Carrier::cells;
+    std::optional<Carrier> carrier;        // none: follows from the rest
     std::vector<SlicePlane> slices;
     CellFilter filter;
     std::optional<glm::dvec2> range;       // of the colours; none: follows from the values
@@ -47,7 +48,12 @@ struct View {
     bool histogram = false;                // of the quantity
     LookupOptions lookup{};                // how the mesh reads the volume
     double exposure = 0.0;                 // powers of two beside what fits the view
+    std::optional<Exposure> fixedExposure; // in place of both
+    bool truth = false;                    // irradiance by path tracing in place of the volume's
     std::uint64_t errorSamples = 256;      // paths a point of the reference
 };
+
+// Slices where there are any, surfaces for the error, else cells, unless the view says what.
+Carrier carrierOf(const View& view);
 
 }  // namespace clv

@@ -1,6 +1,7 @@
 #include "viz/world.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -10,11 +11,21 @@
 namespace clv {
 namespace {
 
+constexpr float kSameBounds = 1e-4f;  // of the scene's size: what another program may round them by
+
 Scene sceneOf(const BakedVolume& volume, const std::string& file) {
     const std::string& name = file.empty() ? volume.scene : file;
     Scene scene = loadScene(name);
     if (scene.anchor != volume.anchor)
         throw InputError(fmt::format("{}: expected the scene of the volume, but its anchor lies {} m away", name, glm::length(scene.anchor - volume.anchor)));
+    if (volume.mark) {
+        const SceneMark mark = markOf(scene);
+        if (mark.triangles != volume.mark->triangles)
+            throw InputError(fmt::format("{}: expected the scene of the volume, {}, with {} triangles, found {}", name, volume.scene, volume.mark->triangles, mark.triangles));
+        const float off = glm::length(mark.bounds.lo - volume.mark->bounds.lo) + glm::length(mark.bounds.hi - volume.mark->bounds.hi);
+        if (!(off <= kSameBounds * glm::length(mark.bounds.extent())))
+            throw InputError(fmt::format("{}: expected the scene of the volume, {}, but its bounds are others, {} m off", name, volume.scene, off));
+    }
     scene.lights = volume.lights;
     return scene;
 }
@@ -33,6 +44,12 @@ float distanceToBounds(const Bounds& bounds, const ClvRay& ray) {
 }  // namespace
 
 World::World(const BakedVolume& volume, const std::string& file) : scene_(sceneOf(volume, file)), embree_(scene_) {}
+
+void World::setLights(const std::vector<NamedLight>& lights) {
+    const auto same = [](const NamedLight& a, const NamedLight& b) { return std::memcmp(&a.light, &b.light, sizeof(ClvLight)) == 0; };
+    if (!std::ranges::equal(scene_.lights, lights, same)) truth_.clear();
+    scene_.lights = lights;
+}
 
 std::vector<ClvRsmTexel> World::texels(const ParallelFor& parallelFor) const {
     LightMaps maps(embree_, 1, parallelFor);

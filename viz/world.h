@@ -9,6 +9,7 @@
 #include "clv/cpu/parallel.h"
 #include "clv/data/ray.h"
 #include "clv/data/rsm_texel.h"
+#include "viz/cell_truth.h"
 
 namespace clv {
 
@@ -21,7 +22,9 @@ public:
     const EmbreeScene& embree() const { return embree_; }
 
     // Lights as the volume has them.
-    void setLights(const std::vector<NamedLight>& lights) { scene_.lights = lights; }
+    void setLights(const std::vector<NamedLight>& lights);
+    // Of these lights.
+    CellTruth& cellTruth() const { return truth_; }
 
     // The texels of the lights' maps that are lit.
     std::vector<ClvRsmTexel> texels(const ParallelFor& parallelFor) const;
@@ -31,6 +34,7 @@ public:
 private:
     Scene scene_;
     EmbreeScene embree_;
+    mutable CellTruth truth_;
 };
 
 }  // namespace clv

@@ -1,11 +1,9 @@
 #include "bindings/cli/bake_grids.h"
 
-#include <algorithm>
-
 #include "bindings/cli/camera_view.h"
+#include "bindings/cli/moving_light.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/scene_facts.h"
-#include "clv/cpu/moving_lighting.h"
 
 namespace clv {
 
@@ -20,13 +18,8 @@ void addCascadeOptions(CLI::App& command, CascadeOptions& options) {
 BakeGrids bakeGrids(const Scene& scene, const LightOptions& light, const CascadeOptions& options) {
     if (options.count == 0) return {.grids = {volumeOver(scene, light.resolution, light)}, .camera = {}};
     const Camera& camera = chooseCamera(scene, options.camera);
-    CascadeDesc desc{.count = options.count, .resolution = ivec3(light.resolution), .finestCellSize = options.cellSize};
-    if (options.cellSize == 0.0) {
-        desc.finestCellSize = 1.0;
-        const glm::vec3 farthest = glm::max(glm::abs(scene.bounds.lo - camera.position), glm::abs(scene.bounds.hi - camera.position));
-        desc.finestCellSize = double(std::max({farthest.x, farthest.y, farthest.z})) / heldRadius(desc, desc.count - 1);
-    }
-    const CameraView view{.position = scene.anchor + glm::dvec3(camera.position), .forward = glm::normalize(glm::dvec3(camera.forward)), .yfov = camera.yfov, .aspect = camera.aspect};
+    const CascadeDesc desc = cascadesAround(scene, camera, options.count, light.resolution, options.cellSize);
+    const CameraView view = viewOf(scene, camera);
     if (const std::string problem = validate(desc, view); !problem.empty()) throw InputError("--cascades: " + problem);
 
     BakeGrids baked{.grids = {}, .camera = camera, .marginCells = float(desc.marginCells), .blendCells = MovingLightingSettings{}.blendCells};

@@ -40,6 +40,7 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
         if (!job.worksAtAll()) throw InputError(scene.name + ": no light is on; expected one to bake");
         BakedVolume volume;
         volume.scene = scene.name;
+        volume.mark = markOf(scene);
         volume.libraryVersion = CLV_VERSION;
         volume.anchor = scene.anchor;
         volume.lights = scene.lights;

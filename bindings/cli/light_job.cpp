@@ -1,16 +1,12 @@
 #include "bindings/cli/light_job.h"
 
-#include <fmt/format.h>
-
 #include "bindings/cli/cpu_lighting.h"
+#include "bindings/cli/heed_lights.h"
 #include "bindings/cli/scene_facts.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
-#include "bindings/embree/light_maps.h"
 #include "bindings/embree/visible_points.h"
 #include "clv/cpu/build_level.h"
-#include "clv/plan/largest_flux.h"
-#include "clv/stages/inject.h"
 
 namespace clv {
 namespace {
@@ -63,29 +59,16 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
     report.device = backend_->device();
 }
 
-// What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out, and is turned around.
 void LightJob::heedLights() {
-    constexpr double kStray = 0.05;  // share of the light that may fall on backs without a word: on sheets, and through cracks
-    const LightCheck check = checkLights(*embree_, parallelFor);
-    for (const std::string& name : check.idle) {
-        report.warnings.push_back(fmt::format("light \"{}\" meets no surface: it is too far away, or looks the other way", name));
-    }
-    const float most = clvMostFlux(kClvInjectTrackLength, volumeOver(scene, options.resolution > 0 ? options.resolution : kResolutions[0], options).cellSize);
-    if (!(largestRayFlux(lightsThatSend(scene), scene.bounds.lo, scene.bounds.hi) <= most)) {
-        report.warnings.push_back(fmt::format("the lights send more than the {:g} W that cells of this size can add up: what is beyond is cut off", most));
-    }
-    if (check.shareOnBacks > 0.5) {
-        report.warnings.push_back("most of the light falls on the backs of surfaces: all of them are taken to face the other way");
-        turned_ = scene;
-        turnFaces(*turned_);
-        embree_.emplace(*turned_);
-        if (!proxyScene_) return;
-        turnFaces(*proxyScene_);
-        proxy_.emplace(*proxyScene_);
-    } else if (check.shareOnBacks > kStray) {
-        report.warnings.push_back(fmt::format(
-            "{:.0f} % of the light falls on the backs of surfaces; what is enclosed by backs counts as solid, and its light is lost", 100.0 * check.shareOnBacks));
-    }
+    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, options.resolution > 0 ? options.resolution : kResolutions[0], options).cellSize, parallelFor);
+    report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
+    if (!heed.insideOut) return;
+    turned_ = scene;
+    turnFaces(*turned_);
+    embree_.emplace(*turned_);
+    if (!proxyScene_) return;
+    turnFaces(*proxyScene_);
+    proxy_.emplace(*proxyScene_);
 }
 
 // Some of the points, and with few of them some that the cameras see.

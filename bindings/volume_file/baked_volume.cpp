@@ -18,6 +18,10 @@ vec3 irradianceOf(const BakedVolume& volume, const BakedCascade& cascade, ClvRec
 
 }  // namespace
 
+SceneMark markOf(const Scene& scene) {
+    return {scene.triangles.size(), scene.bounds};
+}
+
 ClvCascades cascadesOf(const BakedVolume& volume) {
     ClvCascades cascades{};
     cascades.count = uint(volume.cascades.size());

@@ -20,8 +20,16 @@ struct BakedCascade {
     std::vector<float> dynamicity;              // kSides a slot, [0, 1]; empty where no light moves
 };
 
+// By which a scene is told from another one.
+struct SceneMark {
+    std::size_t triangles = 0;
+    Bounds bounds;                   // m, relative to the anchor
+};
+SceneMark markOf(const Scene& scene);
+
 struct BakedVolume {
     std::string scene;               // file, or name of a built-in scene
+    std::optional<SceneMark> mark;   // of that scene
     std::string libraryVersion;
     glm::dvec3 anchor{0.0};          // m, world space; all positions are relative to it
     std::vector<NamedLight> lights;  // at this moment

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ void sealFile(const std::string& file) {
     const std::string seal = sealOf(checksumOf(in, error ? 0 : size));
     std::ofstream out(file, std::ios::binary | std::ios::app);
     out << seal << std::flush;
-    if (error || !in || !out) throw InputError(fmt::format("{}: cannot be written; expected room for it", file));
+    if (error || !in || !out) throw std::runtime_error(fmt::format("{}: cannot be written; expected room for it", file));
 }
 
 void checkSeal(const std::string& file) {

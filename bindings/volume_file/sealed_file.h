@@ -4,7 +4,7 @@
 
 namespace clv {
 
-// Appends the seal, an XML comment. Throws InputError.
+// Appends the seal, an XML comment. Throws std::runtime_error.
 void sealFile(const std::string& file);
 // Throws InputError unless the file ends with its seal.
 void checkSeal(const std::string& file);

@@ -13,7 +13,8 @@ namespace clv {
 // Where to write the file that will be called `name`, relative to one folder; a name may begin with a folder of its own.
 using PathOfName = std::function<std::string(const std::string& name)>;
 
-// Asks for the paths of the pieces, "V/cascade_0.vti" for "V.vtm", and of `vtm` last, in whose folder they lie. Throws InputError.
+// Asks for the paths of the pieces, "V/cascade_0.vti" for "V.vtm", and of `vtm` last, in whose folder they lie. Throws
+// std::runtime_error where there is no room.
 void writeVolume(const std::string& vtm, const BakedVolume& volume, const PathOfName& pathOf);
 // Throws InputError, one line that names the file and what was expected, unless the whole volume is there as it was written.
 BakedVolume readVolume(const std::string& vtm);

@@ -94,6 +94,14 @@ Camera cameraFrom(const JsonReader& reader) {
     return {reader["name"].text(), vector(reader["position"]), vector(reader["forward"]), vector(reader["up"]), above0(reader["yfov"]), above0(reader["aspect"])};
 }
 
+SceneMark markFrom(const JsonReader& reader) {
+    SceneMark mark{reader["triangles"].index(), {}};
+    const auto corners = reader["bounds"].elements();
+    if (corners.size() != 2) reader["bounds"].fail("2 vectors");
+    mark.bounds = {vector(corners[0]), vector(corners[1])};
+    return mark;
+}
+
 }  // namespace
 
 Json describeVolume(const BakedVolume& volume) {
@@ -116,6 +124,7 @@ Json describeVolume(const BakedVolume& volume) {
               {"blend_cells", volume.blendCells},
               {"cascades", volume.cascades.size()}};
     if (volume.camera) text["camera"] = describe(*volume.camera);
+    if (volume.mark) text["scene_mark"] = {{"triangles", volume.mark->triangles}, {"bounds", {numbers(volume.mark->bounds.lo), numbers(volume.mark->bounds.hi)}}};
     return text;
 }
 
@@ -126,6 +135,7 @@ BakedVolume volumeFromDescription(const std::string& file, const nlohmann::json&
     volume.libraryVersion = reader["clv"].text();
     volume.scene = reader["scene"].text();
     volume.anchor = reader["anchor"].vector();
+    if (reader.has("scene_mark")) volume.mark = markFrom(reader["scene_mark"]);
     for (const JsonReader& light : reader["lights"].elements()) volume.lights.push_back(lightFrom(light));
     if (reader.has("camera")) volume.camera = cameraFrom(reader["camera"]);
     volume.allBounces = reader["bounces"].text() == "all";

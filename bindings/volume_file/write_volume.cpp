@@ -1,8 +1,11 @@
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
@@ -135,14 +138,17 @@ void writeCascade(const std::string& path, const BakedVolume& volume, std::size_
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToNone();
     writer->SetHeaderTypeToUInt64();
-    if (!writer->Write() || writer->GetErrorCode() != 0) throw InputError(fmt::format("{}: cannot be written; expected room for it", path));
+    // What goes wrong is said once, below.
+    vtkNew<vtkCallbackCommand> silent;
+    for (vtkObject* speaker : {static_cast<vtkObject*>(writer), static_cast<vtkObject*>(writer->GetExecutive())}) speaker->AddObserver(vtkCommand::ErrorEvent, silent);
+    if (!writer->Write() || writer->GetErrorCode() != 0) throw std::runtime_error(fmt::format("{}: cannot be written; expected room for it", path));
     sealFile(path);
 }
 
 void writeText(const std::string& path, const std::string& text) {
     std::ofstream out(path, std::ios::binary);
     out << text << std::flush;
-    if (!out) throw InputError(fmt::format("{}: cannot be written; expected room for it", path));
+    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written; expected room for it", path));
     out.close();
     sealFile(path);
 }

@@ -86,6 +86,11 @@ protected:
         const double count = 3.0 * double(truth.size());
         return std::sqrt(squares / count) / (sum / count);
     }
+    static double meanOf(const std::vector<vec3>& values) {
+        double sum = 0.0;
+        for (const vec3& value : values) sum += double(value.x + value.y + value.z);
+        return sum / double(3 * values.size());
+    }
     static double meanVariance(const BakedVolume& volume) {
         double sum = 0.0;
         const BakedCascade& cascade = volume.cascades[0];
@@ -163,6 +168,52 @@ TEST_F(Bake, aSeriesConvergesFromFrameToFrame) {
     EXPECT_GT(meanVariance(last), 0.0);
 }
 
+TEST_F(Bake, aLampThatMovesMakesTheSidesThatItReachesDynamic) {
+    const std::string motion = write("m.json", R"({"fps": 30, "lights": [{"name": "lamp", "keys": [{"frame": 1, "position": [0.2, 0.5, 0.2]}, {"frame": 4, "position": [0.35, 0.5, 0.35]}]}]})");
+    const json report = run({"--out", file("V.pvd"), "--motion", motion, "--resolution", "8", "--rays", "32k"});
+    EXPECT_EQ(report["frames"], 5) << "as many as the motion has";
+    const auto steps = readSeries(file("V.pvd"));
+    ASSERT_EQ(steps.size(), 5u);
+    EXPECT_NEAR(steps[4].time, 4.0 / 30.0, 1e-12);
+    for (std::size_t frame = 0; frame < steps.size(); ++frame) {
+        const BakedVolume volume = readVolume((folder_ / steps[frame].vtm).string());
+        ASSERT_FALSE(volume.cascades[0].dynamicity.empty());
+        const float most = std::ranges::max(volume.cascades[0].dynamicity);
+        EXPECT_EQ(most, frame < 2 ? 0.0f : 1.0f) << frame;
+        EXPECT_EQ(volume.lights[0].light.dynamicity, frame < 2 ? 0.0f : 1.0f);
+        EXPECT_EQ(volume.frame, frame);
+    }
+    const BakedVolume first = readVolume((folder_ / steps[1].vtm).string()), last = readVolume((folder_ / steps[4].vtm).string());
+    EXPECT_NEAR(last.lights[0].light.position.x - first.lights[0].light.position.x, 0.15f, 1e-6f);
+    // The light of a lamp elsewhere, not a mean over the way there.
+    const BakedVolume there = bake("W.vtm", {"--lights", write("l.json", R"({"lights":[{"name":"lamp","type":"spot","position":[0.35,0.5,0.35],"direction":[0,-1,0],"intensity":[3,2.6,2],"outerConeAngle":1.5707963}]})"),
+                                             "--resolution", "8", "--rays", "1M"});
+    EXPECT_LT(relativeRmse(read(last), read(there)), 0.5 * relativeRmse(read(first), read(there)));
+}
+
+TEST_F(Bake, lightThatStandsStillConvergesInAMotionToo) {
+    const std::string motion = write("m.json", R"({"lights": [{"name": "lamp", "keys": [{"frame": 0}, {"frame": 7}]}]})");
+    run({"--out", file("V.pvd"), "--motion", motion, "--resolution", "8", "--rays", "128k"});
+    const BakedVolume last = readVolume((folder_ / readSeries(file("V.pvd"))[7].vtm).string());
+    // Another grid: its cells err elsewhere, and the mean stays.
+    const std::vector<vec3> still = irradiance({"--resolution", "8", "--rays", "1M"}), values = read(last);
+    EXPECT_LT(relativeRmse(values, still), 0.15);
+    EXPECT_NEAR(meanOf(values), meanOf(still), 0.03 * meanOf(still));
+    EXPECT_NEAR(last.cascades[0].samples[0], float(1 << 20), 64.0f);
+}
+
+TEST_F(Bake, cascadesFollowACameraThatMoves) {
+    const std::string motion = write("m.json", R"({"camera": {"keys": [{"frame": 0, "position": [0.28, 0.28, -0.5], "target": [0.28, 0.28, 0.3]}, {"frame": 3, "position": [0.28, 0.28, 0.1]}]}})");
+    run({"--out", file("V.pvd"), "--motion", motion, "--cascades", "2", "--resolution", "12", "--cell-size", "0.05", "--rays", "32k"});
+    const auto steps = readSeries(file("V.pvd"));
+    ASSERT_EQ(steps.size(), 4u);
+    const BakedVolume first = readVolume((folder_ / steps[0].vtm).string()), last = readVolume((folder_ / steps[3].vtm).string());
+    EXPECT_NEAR(last.cascades[0].level.volume.origin.z - first.cascades[0].level.volume.origin.z, 0.6f, 0.051f);
+    ASSERT_TRUE(first.camera && last.camera);
+    EXPECT_NEAR(last.camera->position.z - first.camera->position.z, 0.6f, 1e-5f);
+    EXPECT_NEAR(last.camera->forward.z, 1.0f, 1e-5f);
+}
+
 TEST_F(Bake, replacesAnEarlierVolumeAndLeavesNothingElse) {
     const BakedVolume coarse = bake("V.vtm", {"--resolution", "4", "--rays", "8k"}), fine = bake("V.vtm", {"--resolution", "6", "--rays", "8k"});
     EXPECT_GT(fine.cascades[0].level.cellCount(), coarse.cascades[0].level.cellCount());
@@ -205,6 +256,8 @@ TEST_F(Bake, paraViewOpensVolumesAndSeries) {
 TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
     write("lights.json", R"({"lights":[{"type":"point","position":[0.27,0.5,0.27],"intensity":[0,0,0]}]})");
     write("taken", "a file");
+    const std::string motion = write("m.json", R"({"lights": [{"name": "lamp", "keys": [{"frame": 0}, {"frame": 1, "position": [0.3, 0.5, 0.3]}]}]})");
+    const std::string sun = write("sun.json", R"({"lights": [{"name": "sun", "keys": [{"frame": 0}]}]})");
     const std::vector<std::pair<Arguments, std::string>> cases = {
         {{"--out", file("V.vti")}, ".vtm"},
         {{"--out", file("V.vtm"), "--frames", "2"}, ".pvd"},
@@ -216,6 +269,14 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
         {{"--out", file("missing/V.vtm")}, "missing"},
         {{"--out", file("taken.vtm"), "--rays", "8k", "--resolution", "4"}, "taken"},
         {{"--out", file("V.vtm"), "--lights", file("lights.json")}, "no light is on"},
+        {{"--out", file("V.vtm"), "--motion", motion}, ".pvd"},
+        {{"--out", file("V.pvd"), "--motion", sun, "--frames", "2"}, "sun.json: lights[0].name"},
+        {{"--out", file("V.pvd"), "--motion", file("none.json")}, "none.json"},
+        {{"--out", file("V.pvd"), "--motion", motion, "--bounces", "all"}, "--motion"},
+        {{"--out", file("V.pvd"), "--motion", motion, "--seconds", "1"}, "--seconds"},
+        {{"--out", file("V.pvd"), "--motion", motion, "--cell-shift", "0.5,0,0"}, "--cell-shift"},
+        {{"--out", file("V.pvd"), "--motion", motion, "--backend", "vulkan"}, "--backend"},
+        {{"--out", file("V.pvd"), "--motion", motion, "--cascades", "2", "--resolution", "7"}, "resolution"},
     };
     for (const auto& [arguments, expected] : cases) {
         const CommandResult result = call(arguments);
@@ -223,7 +284,7 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
         EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     }
-    EXPECT_EQ(listing(), (Arguments{"lights.json", "taken"}));
+    EXPECT_EQ(listing(), (Arguments{"lights.json", "m.json", "sun.json", "taken"}));
 }
 
 TEST_F(Bake, anInterruptLeavesNoFile) {

@@ -51,7 +51,9 @@ protected:
                 {{"reference", "--scene", "cornell", "--points", file("p.csv"), "--out", file("out/r.csv"), "--samples", "64"}, {"r.csv"}},
                 {{"scenes", "--write", file("out/cornell.glb")}, {"cornell.glb"}},
                 {{"render", "--scene", "cornell", "--out", file("out"), "--width", "64", "--height", "48", "--rays", "100k", "--samples", "4", "--error-samples", "16"},
-                 {"combined.exr", "combined.png", "direct.exr", "direct.png", "error.png", "indirect.exr", "indirect.png", "reference.exr", "reference.png"}}};
+                 {"combined.exr", "combined.png", "direct.exr", "direct.png", "error.png", "indirect.exr", "indirect.png", "reference.exr", "reference.png"}},
+                {{"bake", "--scene", "cornell", "--out", file("out/V.vtm"), "--rays", "100k", "--resolution", "16"}, {"V", "V.vtm"}},
+                {{"bake", "--scene", "cornell", "--out", file("out/S.pvd"), "--rays", "100k", "--resolution", "12", "--frames", "3"}, {"S", "S.pvd"}}};
     }
     void emptyOut() const {
         std::filesystem::remove_all(folder_ / "out");

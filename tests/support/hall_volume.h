@@ -39,6 +39,7 @@ inline BakedCascade hallCascade(const vec3& origin, float cellSize, const Deposi
 inline BakedVolume hallVolume(int estimates = 2, bool moving = true, uint storage = kClvStorageCube9) {
     BakedVolume volume;
     volume.scene = "hall & \"boxes\" <1>";
+    volume.mark = SceneMark{.triangles = 76, .bounds = {vec3(-3.3f, -2.1f, -4.7f), vec3(1.0f / 3.0f, 2.5f, 6.1f)}};
     volume.libraryVersion = "0.1.0";
     volume.anchor = {1e6, -2.5, 1.0 / 3.0};
     volume.lights = {{"lamp", {.position = vec3(0.1f, 2.0f, 0.3f), .type = kClvLightSpot, .direction = vec3(0.0f, -1.0f, 0.0f), .innerConeAngle = 0.3f,

@@ -8,6 +8,7 @@
 #include "bindings/volume_file/volume_file.h"
 #include "clv/cpu/build_level.h"
 #include "clv/cpu/still_lighting.h"
+#include "viz/live_light.h"
 
 namespace clv::test {
 
@@ -21,6 +22,7 @@ inline BakedVolume bakedScene(const std::string& name, int resolution) {
     BakedVolume volume;
     volume.scene = name;
     volume.libraryVersion = "0.1.0";
+    volume.mark = markOf(scene);
     volume.anchor = scene.anchor;
     volume.lights = scene.lights;
     volume.camera = scene.cameras.front();
@@ -39,6 +41,22 @@ inline BakedVolume bakedScene(const std::string& name, int resolution) {
     cascade.level = lit.level();
     for (int half = 0; half < 2; ++half) cascade.estimates.emplace_back(lit.history(half).begin(), lit.history(half).end());
     cascade.samples.assign(cascade.level.slots.size(), float(lit.rays()));
+    return volume;
+}
+
+// The light of a few frames in which the scene's first lamp moves along x, with dynamicity.
+inline BakedVolume movedScene(const std::string& name, int resolution) {
+    BakedVolume volume = bakedScene(name, 4);
+    World world(volume, "");
+    const ParallelFor parallelFor = tbbParallelFor();
+    LiveLight live(world, {.resolution = resolution, .rays = kRays / 4}, *volume.camera, parallelFor);
+    for (int frame = 0; frame < 4; ++frame) {
+        std::vector<NamedLight> lights = world.scene().lights;
+        lights[0].light.position.x += 0.02f;
+        lights[0].light.dynamicity = 1.0f;
+        world.setLights(lights);
+        live.frame(1.0f / 30.0f, *volume.camera, volume);
+    }
     return volume;
 }
 

@@ -11,7 +11,6 @@ using namespace clv::test;
 
 namespace {
 
-constexpr int kWidth = 320, kHeight = 180;
 // Differences that VTK counts, in steps of a whole pixel from black to white, a pixel of the picture: other versions of Mesa and FreeType
 // move edges and letters by a fraction of a pixel.
 constexpr double kTolerance = 0.01;
@@ -22,26 +21,49 @@ double differencePerPixel(const std::string& picture, const std::string& referen
     b->SetFileName(reference.c_str());
     a->Update();
     b->Update();
-    const int* size = a->GetOutput()->GetDimensions();
-    if (size[0] != kWidth || size[1] != kHeight) return 1.0;
+    const int *size = a->GetOutput()->GetDimensions(), *expected = b->GetOutput()->GetDimensions();
+    if (size[0] != expected[0] || size[1] != expected[1]) return 1.0;
     vtkNew<vtkImageDifference> difference;
     difference->SetInputConnection(a->GetOutputPort());
     difference->SetImageConnection(b->GetOutputPort());
     difference->Update();
-    return difference->GetThresholdedError() / (kWidth * kHeight);
+    return difference->GetThresholdedError() / (double(size[0]) * size[1]);
 }
+
+enum class Shown { one, two, moved };
 
 struct NamedView {
     std::string name;
     std::vector<std::string> options;
+    Shown shown = Shown::one;
+    int scale = 2;  // of the smallest size, which words and plots do not fit into
 };
 
-class Views : public VizCommand, public ::testing::WithParamInterface<NamedView> {};
+class Views : public VizCommand, public ::testing::WithParamInterface<NamedView> {
+protected:
+    // The volumes that a view is of; of two the second one has half the light in the left half of the room.
+    std::vector<std::string> bakeFor(Shown shown) const {
+        const std::string volume = bake("cornell", 12);
+        if (shown == Shown::one) return {volume};
+        BakedVolume other = shown == Shown::moved ? movedScene("cornell", 12) : bakedScene("cornell", 12);
+        BakedCascade& cascade = other.cascades[0];
+        const std::size_t stride = std::size_t(other.layout.stride());
+        for (std::size_t slot = 0; shown == Shown::two && slot < cascade.level.slots.size(); ++slot) {
+            if (cascade.level.slots[slot].openCentroid.x > other.mark->bounds.center().x) continue;
+            for (auto& estimate : cascade.estimates) {
+                for (std::size_t k = 0; k < stride; ++k) estimate[slot * stride + k] *= 0.5f;
+            }
+        }
+        writeVolume("W.vtm", other, pathOf());
+        return shown == Shown::moved ? std::vector{file("W.vtm")} : std::vector{volume, file("W.vtm")};
+    }
+};
 
 TEST_P(Views, lookLikeTheirReference) {
     unsetenv("DISPLAY");
-    const std::string volume = bake("cornell", 12), picture = file("picture.png");
-    std::vector<std::string> arguments{volume, "--size", "320x180", "--out", picture};
+    const std::string picture = file("picture.png");
+    std::vector<std::string> arguments = bakeFor(GetParam().shown);
+    arguments.insert(arguments.end(), {"--size", GetParam().scale == 1 ? "320x180" : "640x360", "--out", picture});
     arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
     const CommandResult result = runViz(arguments);
     ASSERT_EQ(result.status, 0) << result.err;
@@ -55,11 +77,20 @@ TEST_P(Views, lookLikeTheirReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Headless, Views,
-                         ::testing::Values(NamedView{"cubes", {}}, NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}},
-                                           NamedView{"irradiance_volume", {"--view", "irradiance", "--on", "volume", "--wireframe"}},
-                                           NamedView{"mesh_from_within", {"--view", "mesh", "--direct", "--camera", "0"}},
-                                           NamedView{"rays", {"--view", "rays", "--rays", "300", "--lights", "--frustum"}},
-                                           NamedView{"error", {"--view", "error", "--error-samples", "64"}}),
+                         ::testing::Values(NamedView{"cubes", {}, Shown::one, 1}, NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}, Shown::one, 1},
+                                           NamedView{"irradiance_volume", {"--view", "irradiance", "--on", "volume", "--wireframe"}, Shown::one, 1},
+                                           NamedView{"mesh_from_within", {"--view", "mesh", "--direct", "--camera", "0"}, Shown::one, 1},
+                                           NamedView{"rays", {"--view", "rays", "--rays", "300", "--lights", "--frustum"}, Shown::one, 1},
+                                           NamedView{"error", {"--view", "error", "--error-samples", "64"}, Shown::one, 1},
+                                           NamedView{"error_cells", {"--view", "error", "--on", "cells", "--error-samples", "64", "--range", "0,1"}},
+                                           NamedView{"error_slices", {"--view", "error", "--slice", "z=0.1", "--error-samples", "64", "--range", "0,1"}},
+                                           NamedView{"side_by_side", {"--view", "irradiance", "--on", "cells"}, Shown::two},
+                                           NamedView{"difference", {"--view", "irradiance", "--difference"}, Shown::two},
+                                           NamedView{"probe", {"--view", "irradiance", "--slice", "y=0.3", "--probe", "0.05,0.3,0.2,0.5,0.3,0.4"}},
+                                           NamedView{"histogram", {"--view", "irradiance", "--histogram"}},
+                                           NamedView{"figure_3_1", {"--figure", "3.1"}}, NamedView{"figure_3_2", {"--figure", "3.2"}},
+                                           NamedView{"figure_3_3", {"--figure", "3.3"}, Shown::moved}, NamedView{"figure_4_1", {"--figure", "4.1"}},
+                                           NamedView{"figure_4_3", {"--figure", "4.3"}}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_F(Views, pictureIsWholeOrAbsent) {

@@ -15,11 +15,15 @@ class VizCommand : public TemporaryFolder {
 protected:
     // Writes the volume as V.vtm.
     std::string bake(const std::string& scene, int resolution) const {
-        writeVolume("V.vtm", bakedScene(scene, resolution), [&](const std::string& name) {
+        writeVolume("V.vtm", bakedScene(scene, resolution), pathOf());
+        return file("V.vtm");
+    }
+    // For files in the test's folder.
+    PathOfName pathOf() const {
+        return [this](const std::string& name) {
             std::filesystem::create_directories((folder_ / name).parent_path());
             return file(name);
-        });
-        return file("V.vtm");
+        };
     }
     static CommandResult runViz(const std::vector<std::string>& arguments) { return RunningCommand(arguments, false, kProgram).wait(); }
 

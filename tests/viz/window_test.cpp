@@ -1,34 +1,12 @@
-// The window under a virtual X server, with real keys and a real mouse.
-#include <optional>
-
-#include "viz/virtual_display.h"
-#include "viz/viz_command.h"
+// What keys and the mouse do in the window.
+#include "viz/viz_window.h"
 
 using namespace clv;
 using namespace clv::test;
 
 namespace {
 
-// Sends what xdotool is told to; its exit status.
-int doToWindow(const std::string& what) { return std::system(("xdotool " + what + " >/dev/null 2>&1").c_str()); }
-
-class Window : public VizCommand {
-protected:
-    Window() { unsetenv("DISPLAY"); }
-    // A window that VTK has drawn takes events in their order, however long each takes.
-    void open(const std::vector<std::string>& arguments) {
-        display_.emplace();
-        viz_.emplace(arguments, false, kProgram);
-        ASSERT_EQ(doToWindow("search --sync --onlyvisible --name clv-viz windowfocus --sync"), 0);
-    }
-    CommandResult close() {
-        EXPECT_EQ(doToWindow("key q"), 0);
-        return viz_->wait();
-    }
-
-    std::optional<VirtualDisplay> display_;
-    std::optional<RunningCommand> viz_;
-};
+class Window : public VizWindow {};
 
 // Positions that clicks printed, "at (x, y, z) m".
 std::vector<vec3> placesIn(const std::string& text) {

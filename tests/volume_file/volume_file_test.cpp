@@ -45,6 +45,9 @@ TEST_F(VolumeFile, comesBackToTheLastBit) {
         const BakedVolume read = readVolume(save(volume));
         EXPECT_EQ(read.scene, volume.scene);
         EXPECT_EQ(read.libraryVersion, volume.libraryVersion);
+        ASSERT_TRUE(read.mark);
+        EXPECT_EQ(read.mark->triangles, volume.mark->triangles);
+        EXPECT_EQ(read.mark->bounds.hi, volume.mark->bounds.hi);
         EXPECT_EQ(read.anchor, volume.anchor);
         ASSERT_EQ(read.lights.size(), 1u);
         EXPECT_EQ(read.lights[0].name, "lamp");

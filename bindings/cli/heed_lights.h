@@ -1,0 +1,20 @@
+// What is wrong with where the light of a scene falls.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bindings/embree/embree_scene.h"
+#include "clv/cpu/parallel.h"
+
+namespace clv {
+
+struct LightHeed {
+    std::vector<std::string> warnings;
+    bool insideOut = false;  // all faces are to be turned around
+};
+
+// What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out. cellSize: m, of the cells that
+// take the light.
+LightHeed heedLights(const EmbreeScene& scene, float cellSize, const ParallelFor& parallelFor);
+
+}  // namespace clv
