@@ -14,7 +14,7 @@
 namespace clv {
 namespace {
 
-constexpr float kShare = 0.38f, kBarRoom = 0.16f;  // of the part of the window: the inset, and the colour bar right of it
+constexpr float kShare = 0.38f, kPlotBarRoom = 0.16f;  // of the part of the window: the inset, and the colour bar right of it
 constexpr int kPlotTextSize = 11;
 
 void setPlotText(vtkTextProperty& text) {
@@ -53,7 +53,7 @@ vtkSmartPointer<vtkContextActor> actorOf(const Plot& plot, int width, int height
     setAxis(*chart->GetAxis(vtkAxis::LEFT), plot.yTitle);
     chart->GetBackgroundBrush()->SetColorF(0.05, 0.05, 0.06, 0.85);
     chart->SetAutoSize(false);
-    chart->SetSize(vtkRectf((1.0f - kShare - kBarRoom) * float(width), 0.02f * float(height), kShare * float(width), kShare * float(height)));
+    chart->SetSize(vtkRectf((1.0f - kShare - kPlotBarRoom) * float(width), 0.02f * float(height), kShare * float(width), kShare * float(height)));
     auto actor = vtkSmartPointer<vtkContextActor>::New();
     actor->GetScene()->AddItem(chart);
     return actor;

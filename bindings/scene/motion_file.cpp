@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostFrames = 1000000;
 
-void checkKeys(const JsonReader& reader, const std::set<std::string>& known) {
+void checkMembers(const JsonReader& reader, const std::set<std::string>& known) {
     for (const std::string& key : reader.keys()) {
         if (!known.contains(key)) reader.fail(fmt::format("no member '{}'", key));
     }
@@ -52,11 +52,11 @@ std::size_t lightNamed(const JsonReader& name, const Scene& scene) {
 }
 
 LightMotion readLight(const std::string& file, const JsonReader& source, const Scene& scene, Motion& motion) {
-    checkKeys(source, {"name", "keys"});
+    checkMembers(source, {"name", "keys"});
     LightMotion moving;
     moving.light = lightNamed(source["name"], scene);
     for (const auto& [frame, key] : framesOf(source, motion)) {
-        checkKeys(key, {"frame", "position", "direction", "intensity"});
+        checkMembers(key, {"frame", "position", "direction", "intensity"});
         ClvLight light = scene.lights[moving.light].light;
         if (key.has("position")) moving.position.keys.emplace_back(frame, finiteVector(key["position"]));
         if (key.has("intensity")) {
@@ -74,10 +74,10 @@ LightMotion readLight(const std::string& file, const JsonReader& source, const S
 }
 
 CameraMotion readCamera(const JsonReader& source, Motion& motion) {
-    checkKeys(source, {"keys"});
+    checkMembers(source, {"keys"});
     CameraMotion camera;
     for (const auto& [frame, key] : framesOf(source, motion)) {
-        checkKeys(key, {"frame", "position", "target", "yfov"});
+        checkMembers(key, {"frame", "position", "target", "yfov"});
         if (key.has("position")) camera.position.keys.emplace_back(frame, finiteVector(key["position"]));
         if (key.has("target")) camera.target.keys.emplace_back(frame, finiteVector(key["target"]));
         if (key.has("yfov")) {
@@ -95,7 +95,7 @@ Motion loadMotion(const std::string& file, const Scene& scene) {
     const nlohmann::json json = parseJson(file, readFileBytes(file));
     const JsonReader root(file, json);
     if (root.has("objects")) root["objects"].fail("no objects: those that move are not available; lights and the camera are");
-    checkKeys(root, {"fps", "lights", "camera"});
+    checkMembers(root, {"fps", "lights", "camera"});
     Motion motion;
     motion.fps = root.number("fps", motion.fps);
     if (!(motion.fps > 0.0 && motion.fps <= 1e6)) root["fps"].fail("a number above 0 and at most 1e6");
