@@ -124,7 +124,7 @@ void drawCellErrors(const BakedVolume& volume, const World& world, const View& v
     for (std::size_t i = 0; i < truth.size(); ++i) {
         if (truth[i]) measured.add(i, std::span(errors).subspan(kSides * measured.cells.size()).first<kSides>());
     }
-    drawing.caption = fmt::format("error of the cells' sides, as a share of the path-traced irradiance, itself known to {:.1f} %", 100.0 * noiseOf(truth, truths));
+    drawing.caption = fmt::format("error of the cells' sides against path tracing, itself known to {:.1f} %", 100.0 * noiseOf(truth, truths));
     sayBlocks(blocks, drawing);
     drawing.scale = scaleFor("error / truth", errors);
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;

@@ -42,7 +42,7 @@ Drawing compose(const BakedVolume& volume, const World* world, const View& view,
     if (view.probe) drawProbe(volume, plotted, view, drawing);
     if (view.wireframe || view.subject == Subject::rays || view.subject == Subject::texels) drawWireframe(needed(world, view.subject).scene(), drawing);
     if (view.boxes) drawBoxes(volume, drawing);
-    if (view.frustum) drawFrustum(volume, drawing);
+    if (view.frustum) drawFrustum(volume, world ? &world->scene() : nullptr, drawing);
     if (view.lights) drawLights(volume, drawing);
     return drawing;
 }

@@ -16,8 +16,8 @@
 namespace clv {
 namespace {
 
-constexpr SliderPlace kTimePlace{0.3, 0.7, 0.07};
-constexpr double kBarTopBelowSliders = 0.34;
+constexpr SliderPlace kTimePlace{0.38, 0.66, 0.93};
+constexpr double kBarTopBelowSliders = 0.28;
 constexpr double kMiddle = 0.5;            // of what the mouse may hit of a frame
 constexpr unsigned long kFrameTime = 100;  // ms, of a series that plays
 
@@ -42,7 +42,7 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
         panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0));
         panes_[1]->loadFrame(options.frame);
     }
-    placeCamera();
+    placeCamera(options.camera);
     if (options.live.on) startLive();
     for (std::size_t k = 0; k < panes_.size(); ++k) {
         checkCascade(panes_[k]->volume());
@@ -66,7 +66,7 @@ void Inspector::addTimeSlider() {
     if (live_ || frames < 2) return;
     const auto say = [this](double value) { return fmt::format("{} of {}, {:.3f} s", std::size_t(value), pane().series().frames(), pane().series().time(std::size_t(value))); };
     const auto change = [this](double value) {
-        if (std::size_t(value) != frame_) showFrame(std::size_t(value));
+        if (std::size_t(value) != frame_) loadFrame(std::size_t(value));
     };
     time_ = std::make_unique<Slider>(*interactor_, kTimePlace, "frame", 0.0, double(frames) - 0.01, kMiddle + double(frame_), change, say);
 }
@@ -200,23 +200,28 @@ void Inspector::toggleHelp() {
     window_->Render();
 }
 
-void Inspector::placeCamera() {
+void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
     // Cascades that follow the view would lead it ever farther away.
     const Bounds bounds = options_.live.on && scene ? scene->bounds : boundsOf(pane().volume().cascades.back().level.volume);
-    place(*camera_, options_.camera.empty() ? overview(bounds, aspect()) : parsePose(options_.camera, pane().volume(), scene));
+    place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, pane().volume(), scene));
 }
 
 void Inspector::resetCamera() {
-    placeCamera();
+    placeCamera("");
     canvases_[0]->renderer().ResetCameraClippingRange();
     window_->Render();
 }
 
 void Inspector::showFrame(std::size_t frame) {
     if (live_) return;
-    frame_ = std::min(frame, pane().series().frames() - 1);
+    loadFrame(std::min(frame, pane().series().frames() - 1));
     if (time_) time_->set(kMiddle + double(frame_));
+    window_->Render();
+}
+
+void Inspector::loadFrame(std::size_t frame) {
+    frame_ = frame;
     try {
         panes_[0]->loadFrame(frame_);
         if (panes_.back() != panes_[0]) panes_.back()->loadFrame(frame_);

@@ -60,12 +60,14 @@ private:
     void composePanes();
     void showPanels();
     void tick();
+    // Without moving the slider, which the mouse may hold.
+    void loadFrame(std::size_t frame);
     void startLive();
     void addTimeSlider();
     // Width over height of a pane.
     float aspect() const;
-    // Where the options say.
-    void placeCamera();
+    // To a camera of the scene or a place, see parsePose(); empty: outside of the whole volume.
+    void placeCamera(const std::string& camera);
     // The view's, for the light to follow.
     Camera viewCamera();
     // Shows what is wrong in place of the panel's text.

@@ -58,7 +58,7 @@ std::vector<Key> makeKeys() {
     keys.push_back({"k", "k", "backs of surfaces", toggling(&View::backs)});
     keys.push_back({"w", "w", "edges of the scene", toggling(&View::wireframe)});
     keys.push_back({"b", "b", "boxes around cascades", toggling(&View::boxes)});
-    keys.push_back({"f", "f", "frustum of the volume's camera", toggling(&View::frustum)});
+    keys.push_back({"f", "f", "frustum of the volume's or scene's camera", toggling(&View::frustum)});
     keys.push_back({"l", "l", "lights", toggling(&View::lights)});
     keys.push_back({"t", "t", "texels of the lights' maps", toggling(&View::texels)});
     keys.push_back({"p", "p", "plane culling when surfaces read the volume", changing([](View& view) { view.lookup.planeCulling = !view.lookup.planeCulling; })});

@@ -86,7 +86,7 @@ void addBeside(CLI::App& app, View& view) {
     app.add_flag("--mesh", view.mesh, "Draw the scene's surfaces beside the view");
     app.add_flag("--wireframe", view.wireframe, "Draw the edges of the scene's triangles");
     app.add_flag("!--no-boxes", view.boxes, "Draw no boxes around the cascades");
-    app.add_flag("--frustum", view.frustum, "Draw what the volume's camera sees");
+    app.add_flag("--frustum", view.frustum, "Draw what the volume's camera sees, or the scene's first one");
     app.add_flag("--lights", view.lights, "Draw the lights");
     app.add_flag("--texels", view.texels, "Draw the lit texels of the lights' maps");
     app.add_option("--rays", view.rays, "Draw so many rays from the lights' maps")->check(CLI::Range(std::size_t(0), kMostRays));

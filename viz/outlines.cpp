@@ -31,9 +31,9 @@ void drawBoxes(const BakedVolume& volume, Drawing& drawing) {
     }
 }
 
-void drawFrustum(const BakedVolume& volume, Drawing& drawing) {
-    if (!volume.camera) return;
-    const Camera& camera = *volume.camera;
+void drawFrustum(const BakedVolume& volume, const Scene* scene, Drawing& drawing) {
+    if (!volume.camera && !(scene && !scene->cameras.empty())) throw InputError("--frustum: expected a camera that the volume stands around, or a scene with one");
+    const Camera& camera = volume.camera ? *volume.camera : scene->cameras.front();
     const vec3 extent = extentOf(volume.cascades.front().level.volume);
     const float far = 0.5f * std::max({extent.x, extent.y, extent.z}), near = 0.05f * far;
     const vec3 right = glm::cross(camera.forward, camera.up);

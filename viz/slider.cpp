@@ -27,10 +27,12 @@ Slider::Slider(vtkRenderWindowInteractor& interactor, const SliderPlace& place, 
     shape_->ShowSliderLabelOff();
     shape_->SetTitleHeight(0.018);
     shape_->SetSliderLength(0.015);
-    shape_->SetTubeWidth(0.004);
+    shape_->SetTubeWidth(0.01);
     shape_->SetEndCapLength(0.0);
     shape_->GetTitleProperty()->SetColor(0.92, 0.92, 0.92);
     shape_->GetTitleProperty()->ShadowOff();
+    shape_->GetTitleProperty()->SetBackgroundColor(0.09, 0.09, 0.11);
+    shape_->GetTitleProperty()->SetBackgroundOpacity(0.6);
     say();
     widget_->SetInteractor(&interactor);
     widget_->SetRepresentation(shape_);

@@ -52,15 +52,13 @@ TEST_F(SeriesWindow, keysStepThroughTheFrames) {
 
 TEST_F(SeriesWindow, theSliderScrubs) {
     open({bakeSeries(), "--size", "500x400"});
-    // It lies at a fourteenth of the height, from three to seven tenths of the width; of four frames the third is right of its middle.
-    ASSERT_EQ(doToWindow(std::string(kClick) + "mousemove 275 372 click 1" + kClick + "mousedown 1 mouseup 1 mousemove 275 372 mousedown 1 mousemove 310 372 mousemove 345 372 mouseup 1" + kClick), 0);
+    // It lies a fourteenth of the height below the top, from 0.38 to 0.66 of the width; a frame takes a quarter of it. VTK leaves
+    // out all but the last of the moves that wait, also of those after a button: hence the sleeps.
+    ASSERT_EQ(doToWindow(std::string(kClick) + "mousemove 278 28 click 1 sleep 1" + kClick + "sleep 1 mousemove 278 28 mousedown 1 mousemove 300 28 mousemove 313 28 sleep 1 mouseup 1 sleep 1" + kClick +
+                         "sleep 1 mousemove 242 28 click 1 sleep 1" + kClick), 0);
     const CommandResult result = close();
     EXPECT_EQ(result.status, 0) << result.err;
-    const std::vector<int> frames = framesIn(result.out);
-    ASSERT_GE(frames.size(), 3u) << result.out;
-    EXPECT_EQ(frames[0], 0);
-    EXPECT_EQ(frames[1], 2);
-    EXPECT_EQ(frames.back(), 3);
+    EXPECT_EQ(framesIn(result.out), (std::vector<int>{0, 2, 3, 1})) << result.out;
 }
 
 TEST_F(SeriesWindow, spacePlaysAndPauses) {
