@@ -64,7 +64,7 @@ LightFrameLevel levelOf(const std::array<uint, kClvMostSplits + 1>& groupEnds) {
 }
 
 // Every frame that settings can ask for binds what its shaders bind, and gives the constants that they have.
-TEST(LightFrame, matchesTheShadersForEverySetting) {
+TEST(LightFrameShaders, areMatchedByEverySetting) {
     std::vector<LightFrameSettings> all(1);
     const auto vary = [&](auto&& change, auto... values) {
         std::vector<LightFrameSettings> varied;
