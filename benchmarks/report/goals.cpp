@@ -1,6 +1,7 @@
 #include "benchmarks/report/goals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -41,8 +42,10 @@ Filter withReaders(const std::string& name, const std::string& readers) {
     return [=](const Measurement& m) { return m.method == name && settingOf(m, "readers") == readers; };
 }
 
+Verdict verdictOf(bool reached) { return reached ? Verdict::reached : Verdict::missed; }
+
 GoalResult ratioResult(const std::string& goal, const std::string& scene, double ratio, double least, const std::string& where) {
-    return {goal, scene, fmt::format("{:.3g}× {}", ratio, where), ratio >= least};
+    return {goal, scene, fmt::format("{:.3g}× {}", ratio, where), verdictOf(ratio >= least)};
 }
 
 class Judge {
@@ -94,7 +97,8 @@ private:
             const auto own = secondsToReach(points(method(kLibraryName)), error, pictureReaders_), rival = secondsToReach(points(method("path_tracing")), error, pictureReaders_);
             const std::string goal = "against path tracing, a picture of a still scene, merged frames: ≥ 500× faster", where = fmt::format("at {}", percentText(error));
             if (own && rival) results_.push_back(ratioResult(goal, scene_, *rival / *own, kLeast, where));
-            if (!own && rival) results_.push_back({goal, scene_, "never " + where, false});
+            if (!own && rival) results_.push_back({goal, scene_, "never " + where, Verdict::missed});
+            if (!rival && !points(method("path_tracing")).empty()) results_.push_back({goal, scene_, fmt::format("path tracing has too few rays for {}", percentText(error)), Verdict::open});
         }
     }
 
@@ -115,17 +119,20 @@ private:
         if (own.empty() || rival.empty()) return;
         const double least = own.back()->errors.relativeRmse, theirs = rival.back()->errors.relativeRmse;
         results_.push_back({"against light propagation volumes: reaches errors that they never reach", scene_,
-                            fmt::format("{} against {}", percentText(least), percentText(theirs)), least < theirs});
+                            fmt::format("{} against {}", percentText(least), percentText(theirs)), verdictOf(least < theirs)});
     }
 
     void thesisIsNotOnTheFront() {
         if (points(method("thesis")).empty()) return;
         const auto count = std::ranges::count(paretoFront(points([](const Measurement&) { return true; }), pointReaders_), "thesis", &Measurement::method);
-        results_.push_back({"the thesis' rule: no setting of it lies on the Pareto front", scene_, fmt::format("{} of them", count), count == 0});
+        results_.push_back({"the thesis' rule: no setting of it lies on the Pareto front", scene_, fmt::format("{} of them", count), verdictOf(count == 0)});
     }
 
+    struct Fall : ErrorFall {
+        bool floorShows = false;  // the most rays leave less noise than floor
+    };
     // Of the curve with the most points.
-    std::optional<ErrorFall> fallOf(const std::string& resolution) const {
+    std::optional<Fall> fallOf(const std::string& resolution) const {
         Curve longest;
         for (const Curve& curve : curvesOf(all_, scene_)) {
             const Measurement& m = *curve.points.front();
@@ -134,18 +141,23 @@ private:
         }
         std::vector<double> rays, errors;
         for (const Measurement* m : longest.points) rays.push_back(double(m->raysTraced)), errors.push_back(m->errors.relativeRmse);
-        return fitErrorFall(rays, errors);
+        const auto fall = fitErrorFall(rays, errors);
+        if (!fall) return {};
+        return Fall{*fall, fall->at(std::ranges::max(rays)) < std::sqrt(2.0) * fall->floor};
     }
     void fallsAsNoiseDoes() {
         constexpr double kSlope = -0.5;
-        if (const auto fall = fallOf("32")) results_.push_back({"error over rays at 32³, floor apart: slope of −0.5 or steeper", scene_, fmt::format("{:.3f}", fall->slope), fall->slope <= kSlope});
+        if (const auto fall = fallOf("32")) results_.push_back({"error over rays at 32³, floor apart: slope of −0.5 or steeper", scene_, fmt::format("{:.3f}", fall->slope), verdictOf(fall->slope <= kSlope)});
     }
     void finerCellsLowerTheFloor() {
         constexpr double kLeast = 1.3;
         const auto coarse = fallOf("32"), fine = fallOf("64");
-        if (coarse && fine && fine->floor > 0.0)
-            results_.push_back(ratioResult("the floor falls from 32³ to 64³ by ≥ 1.3", scene_, coarse->floor / fine->floor, kLeast,
-                                           fmt::format("({} to {})", percentText(coarse->floor), percentText(fine->floor))));
+        if (!coarse || !fine) return;
+        const std::string goal = "the floor falls from 32³ to 64³ by ≥ 1.3";
+        if (coarse->floorShows && fine->floorShows)
+            results_.push_back(ratioResult(goal, scene_, coarse->floor / fine->floor, kLeast, fmt::format("({} to {})", percentText(coarse->floor), percentText(fine->floor))));
+        else
+            results_.push_back({goal, scene_, "noise still hides the floor: too few rays", Verdict::open});
     }
 
     void chosenIsAsGoodAsFixed() {
@@ -157,7 +169,7 @@ private:
                 worst = std::max(worst, chosen->errors.relativeRmse / fixed->errors.relativeRmse);
             }
         }
-        if (worst > 0.0) results_.push_back({"the chosen resolution errs at most 1.03 times as much as any fixed one with the same rays", scene_, fmt::format("{:.3f} at worst", worst), worst <= kMost});
+        if (worst > 0.0) results_.push_back({"the chosen resolution errs at most 1.03 times as much as any fixed one with the same rays", scene_, fmt::format("{:.3f} at worst", worst), verdictOf(worst <= kMost)});
     }
 
     const std::span<const Measurement> all_;

@@ -8,14 +8,16 @@
 
 namespace clv {
 
+enum class Verdict { missed, reached, open };  // open: these measurements do not tell
+
 struct GoalResult {
     std::string goal;      // in words
     std::string scene;
     std::string measured;  // in words
-    bool reached = false;
+    Verdict verdict = Verdict::open;
 };
 
-// Those that the measurements can tell; `pointReaders` and `pictureReaders` receive the light.
+// Those that the methods measured are about; `pointReaders` and `pictureReaders` receive the light.
 std::vector<GoalResult> judgeGoals(std::span<const Measurement> all, double pointReaders, double pictureReaders);
 
 }  // namespace clv

@@ -12,7 +12,11 @@ void keepFile(const std::filesystem::path& file, std::string_view bytes) {
     std::ofstream output(unfinished, std::ios::binary);
     output << bytes;
     output.close();
-    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", unfinished.string()));
+    if (!output) {
+        std::error_code ignored;
+        std::filesystem::remove(unfinished, ignored);
+        throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+    }
     std::filesystem::rename(unfinished, file);
 }
 

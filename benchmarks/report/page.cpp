@@ -132,10 +132,19 @@ std::string keyOf(const std::vector<Curve>& curves, const CurveLabels& labels) {
     return text + "</p>\n";
 }
 
+const char* verdictCell(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::reached: return "reached";
+        case Verdict::missed: return "<b class=\"missed\">missed</b>";
+        case Verdict::open: return "not told";
+    }
+    return "";
+}
+
 std::string goalTable(const std::vector<Measurement>& all) {
     std::string text = "<table>" + row({"goal", "scene", "measured", ""}, "th");
     for (const GoalResult& result : judgeGoals(all, kPointReaders, kPictureReaders))
-        text += row({escaped(result.goal), escaped(result.scene), escaped(result.measured), result.reached ? "reached" : "<b class=\"missed\">missed</b>"});
+        text += row({escaped(result.goal), escaped(result.scene), escaped(result.measured), verdictCell(result.verdict)});
     return text + "</table>\n";
 }
 

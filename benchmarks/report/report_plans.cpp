@@ -66,7 +66,7 @@ ReportPlan quickPlan(const std::string& vulkanDevice) {
         lightVolume({.resolution = 32}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 16, .readers = Readers::anywhere, .guided = false}, {64 * kThousand}, {1, 4, 16}),
-        {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion}},
+        {.make = makePathTracing, .rays = {16 * kThousand, 64 * kThousand, 256 * kThousand, kMillion, 4 * kMillion}},
         thesis({.resolution = 16}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         thesis({.resolution = 32}, {64 * kThousand}, {1, 4, 16}),
         propagation({.resolution = 8, .iterations = 16}, {1, 4}),

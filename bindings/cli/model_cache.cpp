@@ -5,6 +5,7 @@
 
 #include "benchmarks/report/provenance.h"
 #include "bindings/cli/staged_output.h"
+#include "bindings/cli/write_text.h"
 
 namespace clv {
 namespace {
@@ -59,7 +60,7 @@ void ModelCache::keep(const nlohmann::json& key, const CostModel& model) const {
     if (kept.size() > kMostModels) kept.erase(kept.begin());
     fs::create_directories(file_.parent_path());
     StagedFile output(file_);
-    std::ofstream(output.path(), std::ios::binary) << kept.dump(2) << "\n";
+    writeText(output.path(), kept.dump(2) + "\n");
     output.commit();
 }
 

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "bindings/cli/write_text.h"
+
 namespace clv {
 namespace {
 
@@ -98,10 +100,7 @@ void writePointTable(const std::string& file, const PointTable& table, std::init
         }
         fmt::format_to(out, "\n");
     }
-    std::ofstream output(file, std::ios::binary);
-    output.write(text.data(), std::streamsize(text.size()));
-    output.close();
-    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", file));
+    writeText(file, {text.data(), text.size()});
 }
 
 }  // namespace clv

@@ -17,18 +17,13 @@
 #include "bindings/cli/options.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/staged_output.h"
+#include "bindings/cli/write_text.h"
 #include "bindings/vulkan/vulkan_device.h"
 
 namespace clv {
 namespace {
 
 constexpr int kMostPoints = 1 << 20, kMostRepeats = 1000;
-
-void writeText(const std::string& file, const std::string& text) {
-    std::ofstream output(file, std::ios::binary);
-    output << text << std::flush;
-    if (!output) throw std::runtime_error(fmt::format("{}: cannot be written", file));
-}
 
 // As the program was started, with quotes where a word needs them.
 std::string commandLine() {

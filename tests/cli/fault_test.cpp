@@ -6,6 +6,8 @@
 
 #include <sys/resource.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/run_command.h"
 #include "clv/math/hash.h"
 #include "support/temporary_folder.h"
@@ -54,6 +56,26 @@ protected:
                  {"combined.exr", "combined.png", "direct.exr", "direct.png", "error.png", "indirect.exr", "indirect.png", "reference.exr", "reference.png"}},
                 {{"bake", "--scene", "cornell", "--out", file("out/V.vtm"), "--rays", "100k", "--resolution", "16"}, {"V", "V.vtm"}},
                 {{"bake", "--scene", "cornell", "--out", file("out/S.pvd"), "--rays", "100k", "--resolution", "12", "--frames", "3"}, {"S", "S.pvd"}}};
+    }
+    // A report into `out`, which goes on from what is there.
+    CommandResult report(std::optional<rlim_t> mostBytes = {}, const std::function<void(RunningCommand&)>& meanwhile = {}) const {
+        std::optional<SmallFiles> limit;
+        if (mostBytes) limit.emplace(*mostBytes);
+        RunningCommand running({"report", "--out", file("out"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20", "--truth-samples", "64",
+                                "--repeats", "2", "--most-rays", "65536"});
+        limit.reset();
+        if (meanwhile) meanwhile(running);
+        return running.wait();
+    }
+    // Of a finished report: all that follows from the seed.
+    nlohmann::json errorsOf(const std::string& reportFile) const {
+        const nlohmann::json report = nlohmann::json::parse(read(reportFile));
+        nlohmann::json errors;
+        for (const auto& m : report.at("measurements")) errors[m.at("key").get<std::string>()] = {m.at("relative_rmse"), m.at("bias"), m.at("p95")};
+        return errors;
+    }
+    void expectNoPartOfAPage() const {
+        for (const std::string& name : listing("out")) EXPECT_FALSE(name.starts_with("report.") || name.starts_with(".") || name.ends_with(".unfinished")) << name;
     }
     void emptyOut() const {
         std::filesystem::remove_all(folder_ / "out");
@@ -104,6 +126,56 @@ TEST_F(Faults, anInterruptAtAnyTimeLeavesAllOrNothing) {
         }
     }
     EXPECT_GT(interrupted, 4);
+}
+
+TEST_F(Faults, aReportGoesOnAfterAFullDiskAndAfterInterrupts) {
+    emptyOut();
+    ASSERT_EQ(report().status, 0);
+    const nlohmann::json expected = errorsOf(file("out/report.json"));
+    ASSERT_EQ(expected.size(), 2u);
+
+    // Room for less and less of what it keeps and writes.
+    for (const rlim_t mostBytes : {20000, 2000, 1000, 100}) {
+        emptyOut();
+        const CommandResult full = report(mostBytes);
+        EXPECT_EQ(full.status, 1) << mostBytes << full.err;
+        EXPECT_EQ(std::ranges::count(full.err, '\n'), 1) << full.err;
+        EXPECT_NE(full.err.find("cannot be written"), std::string::npos) << full.err;
+        expectNoPartOfAPage();
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(report().status, 0);
+    const auto whole = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(errorsOf(file("out/report.json")), expected);
+
+    emptyOut();
+    int interrupted = 0;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const int signal = k % 2 == 0 ? SIGTERM : SIGINT;
+        const CommandResult result = report({}, [&](RunningCommand& running) {
+            std::this_thread::sleep_for(whole * 0.9 * double(clvUnitFloat(clvHashCombine(k, 11u))));
+            running.send(signal);
+        });
+        if (result.status == 0) break;
+        ++interrupted;
+        EXPECT_EQ(result.status, 128 + signal) << result.err;
+        expectNoPartOfAPage();
+    }
+    EXPECT_GT(interrupted, 0);
+    ASSERT_EQ(report().status, 0);
+    EXPECT_EQ(errorsOf(file("out/report.json")), expected);
+}
+
+TEST_F(Faults, anInterruptedModelOfTheMachineIsNotKept) {
+    setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
+    RunningCommand running({"plan", "--scene", "furnace_box", "--resolution", "16", "--points", "100", "--budget-ms", "5"}, true);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    running.send(SIGINT);
+    const CommandResult result = running.wait();
+    unsetenv("XDG_CACHE_HOME");
+    EXPECT_EQ(result.status, 128 + SIGINT) << "long before the machine is measured" << result.err;
+    EXPECT_FALSE(std::filesystem::exists(file("cache/clv/cost_model.json")));
+    if (std::filesystem::exists(file("cache/clv"))) EXPECT_EQ(listing("cache/clv"), Names());
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // Cost models are taken from the cache for the same program, machine, threads and readers alone.
 #include "bindings/cli/model_cache.h"
 
+#include <csignal>
+
+#include <sys/resource.h>
+
 #include "support/temporary_folder.h"
 
 namespace {
@@ -65,6 +69,21 @@ TEST_F(ModelCacheFile, whatIsDamagedIsNotThere) {
     nlohmann::json key = keyOf(2, 3000);
     write("cost_model.json", nlohmann::json::array({{{"key", key}, {"model", {{"time_growth", "x"}}}}}).dump());
     EXPECT_FALSE(ModelCache(folder_).find(key));
+}
+
+TEST_F(ModelCacheFile, aFullDiskIsSaidAndLeavesWhatWasThere) {
+    const ModelCache cache(folder_);
+    cache.keep(keyOf(2, 3000), modelOf(0.1));
+    const auto onTooLarge = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{10, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(cache.keep(keyOf(1, 3000), modelOf(0.2)), std::runtime_error);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, onTooLarge);
+    EXPECT_EQ(listing(), std::vector<std::string>{"cost_model.json"});
+    EXPECT_TRUE(cache.find(keyOf(2, 3000)));
 }
 
 TEST(ModelCache, withoutAFolderNothingIsKept) {
