@@ -72,10 +72,16 @@ std::vector<float> readDeposits(VtiFile& file, const std::string& name, const De
     return records;
 }
 
-BakedCascade readCascade(VtiFile& file, const std::string& name, const DepositLayout& layout) {
+nlohmann::json jsonOf(VtiFile& file, const std::string& name, const char* array) {
+    const std::string text = file.text(array);
+    return parseJson(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+BakedCascade readCascade(VtiFile& file, const std::string& name, const DepositLayout& layout, std::size_t index) {
     BakedCascade cascade;
-    const std::string grid = file.text(arrays::kGrid);
-    cascade.level = readLevel(file, gridFromDescription(name, parseJson(name, std::span(reinterpret_cast<const std::uint8_t*>(grid.data()), grid.size())), layout.storage));
+    const nlohmann::json grid = jsonOf(file, name, arrays::kGrid);
+    cascade.level = readLevel(file, gridFromDescription(name, grid, layout.storage));
+    if (JsonReader(name, grid)["cascade"].index() != index) file.fail(fmt::format("expected cascade {} of its volume", index));
     const std::size_t slots = cascade.level.slots.size();
     cascade.samples = file.floats(arrays::kSlotSamples, 1);
     if (cascade.samples.size() != slots) file.fail(fmt::format("array '{}': expected a tuple a slot", arrays::kSlotSamples));
@@ -97,24 +103,27 @@ BakedCascade readCascade(VtiFile& file, const std::string& name, const DepositLa
 BakedVolume readVolume(const std::string& vtm) {
     checkSeal(vtm);
     const auto index = parseVtkXml(vtm, "vtkMultiBlockDataSet");
+    vtkXMLDataElement* blocks = index->GetRootElement()->FindNestedElementWithName("vtkMultiBlockDataSet");
+    const char* content = blocks ? blocks->GetAttribute("content") : nullptr;
     std::vector<std::string> pieces;
     for (vtkXMLDataElement* set : dataSets(*index, vtm, "vtkMultiBlockDataSet")) pieces.push_back((fs::path(vtm).parent_path() / set->GetAttribute("file")).string());
 
     BakedVolume volume;
-    std::string about;
+    nlohmann::json about;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         checkSeal(pieces[i]);
         VtiFile file(pieces[i]);
-        const std::string text = file.text(arrays::kAbout);
+        const nlohmann::json description = jsonOf(file, pieces[i], arrays::kAbout);
         if (i == 0) {
-            about = text;
-            volume = volumeFromDescription(pieces[i], parseJson(pieces[i], std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())));
+            about = description;
+            volume = volumeFromDescription(pieces[i], about);
             if (volume.cascades.size() != pieces.size()) throw InputError(fmt::format("{}: expected {} cascades, found {}", vtm, volume.cascades.size(), pieces.size()));
         }
-        if (text != about) file.fail("expected a piece of the same volume as " + pieces[0]);
-        volume.cascades[i] = readCascade(file, pieces[i], volume.layout);
+        if (description != about) file.fail("expected a piece of the same volume as " + pieces[0]);
+        volume.cascades[i] = readCascade(file, pieces[i], volume.layout, i);
         const BakedCascade &first = volume.cascades[0], &read = volume.cascades[i];
         if (read.estimates.size() != first.estimates.size() || read.dynamicity.empty() != first.dynamicity.empty()) file.fail("expected the same arrays as in " + pieces[0]);
+        if (!content || JsonReader(pieces[i], about)["content"].text() != content) file.fail("expected a piece of the volume that " + vtm + " lists");
     }
     return volume;
 }

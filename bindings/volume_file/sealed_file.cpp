@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "bindings/scene/scene.h"
+#include "bindings/volume_file/word_checksum.h"
 
 namespace clv {
 namespace {
@@ -19,23 +20,18 @@ std::string sealOf(std::uint64_t checksum) {
     return fmt::format("\n<!-- clv {:016x} -->\n", checksum);
 }
 
-// Of the first `count` bytes: FNV-1a (Fowler, Noll and Vo) by words of eight bytes. Each step can be undone, so that two files which
-// differ in a single word never share a checksum.
+// Of the first `count` bytes.
 std::uint64_t checksumOf(std::ifstream& in, std::uintmax_t count) {
-    std::uint64_t sum = 0xcbf29ce484222325u;
-    std::vector<char> block(std::size_t(std::min<std::uintmax_t>((count + 7) / 8 * 8, 1 << 20)));
+    constexpr std::uintmax_t kBlock = 1 << 20;
+    WordChecksum sum;
+    std::vector<char> block(std::size_t(std::min(count, kBlock)));
     while (count > 0 && in) {
-        const std::size_t size = std::size_t(std::min<std::uintmax_t>(count, block.size()));
-        std::fill_n(block.begin() + std::ptrdiff_t(size), size % 8 == 0 ? 0 : 8 - size % 8, '\0');
-        in.read(block.data(), std::streamsize(size));
-        for (std::size_t i = 0; i < size; i += 8) {
-            std::uint64_t word;
-            std::memcpy(&word, block.data() + i, 8);
-            sum = (sum ^ word) * 0x100000001b3u;
-        }
-        count -= size;
+        const auto part = std::span(block).first(std::size_t(std::min(count, kBlock)));
+        in.read(part.data(), std::streamsize(part.size()));
+        sum.add(std::as_bytes(part));
+        count -= part.size();
     }
-    return sum;
+    return sum.value();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bindings/scene/json_reader.h"
+#include "bindings/volume_file/word_checksum.h"
 
 namespace clv {
 namespace {
@@ -102,6 +103,18 @@ SceneMark markFrom(const JsonReader& reader) {
     return mark;
 }
 
+// Of all that a volume is.
+std::string contentOf(const BakedVolume& volume, const Json& description) {
+    WordChecksum sum;
+    const std::string text = description.dump();
+    sum.add(std::as_bytes(std::span(text)));
+    for (const BakedCascade& cascade : volume.cascades) {
+        sum.add(std::as_bytes(std::span(cascade.level.table)));
+        for (const std::vector<float>& estimate : cascade.estimates) sum.add(std::as_bytes(std::span(estimate)));
+    }
+    return fmt::format("{:016x}", sum.value());
+}
+
 }  // namespace
 
 Json describeVolume(const BakedVolume& volume) {
@@ -125,6 +138,7 @@ Json describeVolume(const BakedVolume& volume) {
               {"cascades", volume.cascades.size()}};
     if (volume.camera) text["camera"] = describe(*volume.camera);
     if (volume.mark) text["scene_mark"] = {{"triangles", volume.mark->triangles}, {"bounds", {numbers(volume.mark->bounds.lo), numbers(volume.mark->bounds.hi)}}};
+    text["content"] = contentOf(volume, text);
     return text;
 }
 
@@ -154,8 +168,8 @@ BakedVolume volumeFromDescription(const std::string& file, const nlohmann::json&
     return volume;
 }
 
-Json describeGrid(const ClvVolume& grid) {
-    return {{"origin", numbers(grid.origin)}, {"cell_size", grid.cellSize}, {"resolution", numbers(grid.resolution)}};
+Json describeGrid(const ClvVolume& grid, std::size_t cascade) {
+    return {{"cascade", cascade}, {"origin", numbers(grid.origin)}, {"cell_size", grid.cellSize}, {"resolution", numbers(grid.resolution)}};
 }
 
 ClvVolume gridFromDescription(const std::string& file, const nlohmann::json& description, uint storage) {

@@ -127,7 +127,7 @@ void writeCascade(const std::string& path, const BakedVolume& volume, std::size_
     addCells(*image->GetCellData(), volume, index);
     vtkFieldData& field = *image->GetFieldData();
     addText(field, arrays::kAbout, about);
-    addText(field, arrays::kGrid, describeGrid(grid).dump());
+    addText(field, arrays::kGrid, describeGrid(grid, index).dump());
     addSlots(field, volume, volume.cascades[index]);
 
     vtkNew<vtkXMLImageDataWriter> writer;
@@ -167,7 +167,8 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 void writeVolume(const std::string& vtm, const BakedVolume& volume, const PathOfName& pathOf) {
-    const std::string about = describeVolume(volume).dump();
+    const nlohmann::ordered_json description = describeVolume(volume);
+    const std::string about = description.dump();
     const std::filesystem::path name(vtm);
     std::string list;
     for (std::size_t i = 0; i < volume.cascades.size(); ++i) {
@@ -177,8 +178,8 @@ void writeVolume(const std::string& vtm, const BakedVolume& volume, const PathOf
     }
     writeText(pathOf(vtm), fmt::format("<?xml version=\"1.0\"?>\n"
                                        "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-                                       "  <vtkMultiBlockDataSet>\n{}  </vtkMultiBlockDataSet>\n</VTKFile>",
-                                       list));
+                                       "  <vtkMultiBlockDataSet content=\"{}\">\n{}  </vtkMultiBlockDataSet>\n</VTKFile>",
+                                       description["content"].get<std::string>(), list));
 }
 
 void writeSeries(const std::string& pvd, std::span<const SeriesStep> steps, const PathOfName& pathOf) {

@@ -123,7 +123,7 @@ TEST_F(DamagedVolume, wrongHeadersAreNamed) {
     EXPECT_TRUE(names(complaintOf("byte_order=\"LittleEndian\"", "byte_order=\"BigEndian\""), "little-endian"));
     EXPECT_TRUE(names(complaintOf("header_type=\"UInt64\"", "header_type=\"UInt32\""), "UInt64"));
     EXPECT_TRUE(names(complaintOf("encoding=\"raw\"", "encoding=\"base64\""), "raw"));
-    EXPECT_TRUE(names(complaintOf("\"format\":1", "\"format\":2"), "version of volume files"));
+    EXPECT_TRUE(names(complaintOf("\"format\":2", "\"format\":1"), "version of volume files"));
     EXPECT_TRUE(names(complaintOf("\"channels\":3", "\"channels\":2"), "channels"));
     EXPECT_TRUE(names(complaintOf("\"storage\":\"cube\"", "\"storage\":\"cone\""), "cube9"));
     EXPECT_TRUE(names(complaintOf("\"seed\":", "\"sees\":"), "seed"));
@@ -202,6 +202,14 @@ TEST_F(DamagedVolume, piecesOfTwoVolumesAreToldApart) {
     writeVolume("W.vtm", later, pathOf);
     std::filesystem::copy_file(file("W/cascade_1.vti"), file("V/cascade_1.vti"), std::filesystem::copy_options::overwrite_existing);
     EXPECT_NE(complaint().find("cascade_1.vti: expected a piece of the same volume"), std::string::npos);
+    std::filesystem::copy_file(file("W/cascade_0.vti"), file("V/cascade_0.vti"), std::filesystem::copy_options::overwrite_existing);
+    EXPECT_NE(complaint().find("cascade_0.vti: expected a piece of the volume that"), std::string::npos) << "all of them are another's";
+}
+
+TEST_F(DamagedVolume, aPieceInThePlaceOfAnotherIsSeen) {
+    writeVolume("V.vtm", hallVolume(), [this](const std::string& name) { return file(name); });
+    std::filesystem::copy_file(file("V/cascade_0.vti"), file("V/cascade_1.vti"), std::filesystem::copy_options::overwrite_existing);
+    EXPECT_NE(complaint().find("cascade_1.vti: expected cascade 1"), std::string::npos);
 }
 
 }  // namespace
