@@ -97,11 +97,9 @@ void removeClipping(vtkXMLDataElement& element) {
 std::string svgOf(const Chart& chart, int width, int height) {
     Range x = rangeOf(chart, 0), y = rangeOf(chart, 1);
     const double across = width - kLeft - kRight, up = height - kTop - kBottom;
-    if (chart.equalDecades) {
-        const double decade = std::min(across / x.length(), up / y.length());
-        x.widenTo(across / decade);
-        y.widenTo(up / decade);
-    }
+    const double decade = std::min(across / x.length(), up / y.length());
+    x.widenTo(across / decade);
+    y.widenTo(up / decade);
 
     vtkNew<vtkChartXY> drawn;
     drawn->SetAutoSize(false);

@@ -19,10 +19,9 @@ struct ChartSeries {
 struct Chart {
     std::string title, xTitle, yTitle;
     std::vector<ChartSeries> series;     // later ones lie on top
-    bool equalDecades = true;            // a factor of ten is as long on either axis, so that slopes can be read off; else each axis is filled
 };
 
-// An <svg> element.
+// An <svg> element. A factor of ten is as long on either axis, so that slopes can be read off.
 std::string svgOf(const Chart& chart, int width, int height);
 
 // Colour number `index` of a palette whose neighbours are told apart, and the sign of marker number `index`, UTF-8. Both recur, together

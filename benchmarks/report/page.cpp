@@ -12,7 +12,7 @@
 namespace clv {
 namespace {
 
-constexpr int kPlotWidth = 620, kPlotHeight = 420;
+constexpr int kPlotWidth = 620, kNarrowPlotWidth = 420, kPlotHeight = 420;
 // Run times of a frame, s.
 constexpr double kPointBudgets[] = {0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3, 50e-3};
 constexpr double kPictureBudgets[] = {50e-3, 100e-3, 200e-3, 500e-3, 1.0, 5.0};
@@ -57,8 +57,8 @@ std::string budgetTable(const std::vector<Measurement>& all, const CurveLabels& 
     return text + "</table>\n";
 }
 
-std::string figure(const Chart& chart, const std::string& caption) {
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svgOf(chart, kPlotWidth, kPlotHeight), caption);
+std::string figure(const Chart& chart, const std::string& caption, int width = kPlotWidth) {
+    return fmt::format("<figure style=\"width:{}px\">{}<figcaption>{}</figcaption></figure>\n", width, svgOf(chart, width, kPlotHeight), caption);
 }
 
 template <class X, class Y>
@@ -119,8 +119,8 @@ std::string errorOverRays(const std::vector<Curve>& curves, const CurveLabels& l
 
 std::string bytesOverError(const std::vector<Curve>& curves) {
     Chart chart = curveChart(curves, errorPercent, [](const Measurement& m) { return double(m.bytes) / double(1 << 20); });
-    chart.equalDecades = false, chart.title = "memory over error", chart.xTitle = "relative RMSE, %", chart.yTitle = "MiB held";
-    return figure(chart, "For the light and for finding it, without the scene.");
+    chart.title = "memory over error", chart.xTitle = "relative RMSE, %", chart.yTitle = "MiB held";
+    return figure(chart, "For the light and for finding it, without the scene.", kNarrowPlotWidth);
 }
 
 std::string keyOf(const std::vector<Curve>& curves, const CurveLabels& labels) {

@@ -47,16 +47,6 @@ TEST(Chart, pointsLieInsideAndWhereTheirLogarithmsSay) {
     EXPECT_NEAR((at[1].x - at[0].x) / (at[1].y - at[0].y), 1.0, 0.1);
 }
 
-TEST(Chart, withoutEqualDecadesEachAxisIsFilled) {
-    Chart chart = oneSeries({{1, 10}, {1000, 20}});
-    const auto equal = markersOf(svgOf(chart, 640, 400), "#d55e00");
-    chart.equalDecades = false;
-    const auto filled = markersOf(svgOf(chart, 640, 400), "#d55e00");
-    ASSERT_EQ(filled.size(), 2u);
-    EXPECT_GT(filled[0].y - filled[1].y, 2.0 * (equal[0].y - equal[1].y));
-    EXPECT_GT(filled[0].y - filled[1].y, 120.0);
-}
-
 TEST(Chart, needsNothingFromElsewhereAndCutsNothingOff) {
     const std::string svg = svgOf(oneSeries({{1, 1}, {10, 10}}), 640, 400);
     EXPECT_TRUE(svg.starts_with("<svg"));
