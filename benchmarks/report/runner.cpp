@@ -4,6 +4,8 @@
 #include <iterator>
 #include <limits>
 
+#include <malloc.h>
+
 #include <fmt/format.h>
 
 #include "benchmarks/report/checksum.h"
@@ -62,6 +64,12 @@ struct Repeats {
         m.lookupSeconds = median(lookups);
     }
 };
+
+// Memory that is given back serves what comes next, so that no repeat pays for new pages, whatever its method.
+void keepMemoryWarm() {
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
 
 class Runner {
 public:
@@ -219,6 +227,7 @@ private:
 
 std::vector<Measurement> measureAll(const ReportPlan& plan, const fs::path& folder, const ParallelFor& parallelFor,
                                     const std::function<void(double)>& onProgress) {
+    keepMemoryWarm();
     return Runner(plan, folder, parallelFor, onProgress).run();
 }
 
