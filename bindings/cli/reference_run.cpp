@@ -13,6 +13,12 @@ namespace {
 
 // The shortest pass: enough for a first look at the variance.
 constexpr std::uint64_t kFirstSamples = 16;
+// As many paths a point must find no light before it counts as dark: what few of them meet has no error that is known.
+constexpr std::uint64_t kDarkSamples = 64 << 10;
+
+bool isDark(std::span<const ReferenceResult> results) {
+    return std::ranges::all_of(results, [](const ReferenceResult& result) { return result.irradiance == glm::vec3(0.0f); });
+}
 
 // How long the next pass should be, given what `run` has found out; 0: the budget is spent.
 std::uint64_t nextPass(const ReferenceBudget& budget, const ReferenceRun& run) {
@@ -21,6 +27,9 @@ std::uint64_t nextPass(const ReferenceBudget& budget, const ReferenceRun& run) {
     if (budget.seconds > 0.0) {
         wanted = done * (budget.seconds - run.seconds) / run.seconds;
         if (wanted < double(kFirstSamples)) return 0;
+    } else if (isDark(run.results)) {
+        wanted = run.samplesPerPoint < kDarkSamples ? done : 0.0;
+        if (wanted == 0.0) return 0;
     } else {
         const double excess = relativeStandardError(run.results) / budget.targetError;
         if (excess <= 1.0) return 0;
@@ -91,7 +100,8 @@ void joinPass(std::span<ReferenceResult> mean, std::uint64_t samples, std::span<
     const float weight = float(double(passSamples) / double(samples + passSamples));
     for (std::size_t i = 0; i < mean.size(); ++i) {
         mean[i].irradiance = glm::mix(mean[i].irradiance, pass[i].irradiance, weight);
-        const glm::vec3 kept = (1.0f - weight) * mean[i].standardError, added = weight * pass[i].standardError;
+        // Squares of small and of large errors are no floats.
+        const glm::dvec3 kept = double(1.0f - weight) * glm::dvec3(mean[i].standardError), added = double(weight) * glm::dvec3(pass[i].standardError);
         mean[i].standardError = glm::sqrt(kept * kept + added * added);
     }
 }

@@ -132,8 +132,10 @@ ReferenceResult estimate(const EmbreeScene& scene, const ReferencePoint& point, 
         sum += mean;
         sumOfSquares += mean * mean;
     }
+    constexpr float kUnknown = std::numeric_limits<float>::infinity(), kLargest = std::numeric_limits<float>::max();
     const glm::dvec3 mean = sum / double(batches);
-    if (batches < 2) return {.irradiance = mean, .standardError = glm::vec3(std::numeric_limits<float>::infinity())};
+    if (!(std::max({mean.x, mean.y, mean.z}) <= kLargest)) return {.irradiance = glm::min(mean, double(kLargest)), .standardError = glm::vec3(kUnknown)};
+    if (batches < 2) return {.irradiance = mean, .standardError = glm::vec3(kUnknown)};
     // Clamped, because rounding can push the variance of equal means below zero.
     const glm::dvec3 variance = glm::max(glm::dvec3(0.0), sumOfSquares / double(batches) - mean * mean) / double(batches - 1);
     return {.irradiance = mean, .standardError = glm::sqrt(variance)};

@@ -53,6 +53,22 @@ TEST(BuildLevel, emptySpaceHasOneWholeSlotACell) {
     }
 }
 
+TEST(BuildLevel, cellsOfAnySizeAreCutAlike) {
+    const auto levelAt = [](float scale) {
+        BoxScene scene = test::hall();
+        for (Box& box : scene.boxes) box.center *= scale, box.half *= scale;
+        return levelOf(gridOver(scale * vec3(-11.0f, -4.1f, -8.2f), 14, 1.6f * scale), scene.probe(), 6);
+    };
+    const Level level = levelAt(1.0f);
+    ASSERT_GT(level.splits.size(), 20u);
+    // Powers of two, by which floats scale to the last bit: cells of 1e-9 and of 1e8 m.
+    for (const float scale : {0x1p-30f, 0x1p26f}) {
+        const Level scaled = levelAt(scale);
+        EXPECT_EQ(scaled.table, level.table) << scale;
+        EXPECT_EQ(scaled.splits.size(), level.splits.size()) << scale;
+    }
+}
+
 TEST(BuildLevel, theOpenVolumesOfARoomAddUpToItsVolumeForEveryShiftOfTheGrid) {
     for (uint i = 0; i < 12; ++i) {
         const vec3 shift(test::randomUnit(1, i), test::randomUnit(2, i), test::randomUnit(3, i));

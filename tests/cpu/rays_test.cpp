@@ -108,6 +108,12 @@ TEST(MakeRays, withoutLightAllRaysAreDead) {
     std::vector<ClvRay> rays(300);
     makeRays(sampler, 0u, 1u, 0.0f, rays);
     for (const ClvRay& ray : rays) ASSERT_TRUE(sameBits(ray, clvDeadRay()));
+    // No light at all has no map.
+    sampler.build({}, 4, serialFor());
+    ASSERT_TRUE(sampler.empty());
+    std::fill(rays.begin(), rays.end(), ClvRay{});
+    makeRays(sampler, 0u, 1u, 0.0f, rays);
+    for (const ClvRay& ray : rays) ASSERT_TRUE(sameBits(ray, clvDeadRay()));
 }
 
 }  // namespace

@@ -92,6 +92,39 @@ TEST(RsmRender, lampsFarAwaySpendTheirMapOnTheScene) {
     }
 }
 
+// Rays that leave a texel behind its own surface meet that surface first.
+TEST(RsmRender, whatLampsFarAwayMeetHasTheAccuracyOfTheScene) {
+    const Scene scene = wallAndScreen();
+    const EmbreeScene embree(scene);
+    for (const float distance : {10.0f, 1e3f, 1e5f, 1e7f, 1e9f}) {
+        ClvLight point = makePointLight(glm::vec3(1.0f));
+        point.position = distance * glm::normalize(glm::vec3(0.3f, 0.2f, 1.0f));
+        ClvLight spot = point;
+        spot.type = kClvLightSpot;
+        spot.direction = -glm::normalize(point.position);
+        // Wider than the scene seen from there, and narrower.
+        for (const float cone : {0.0f, 1.0f, 0.5f / distance}) {
+            if (cone > 0.0f && cone < 1e-5f) continue;  // a light of so narrow a cone is not aimed by floats
+            ClvLight light = cone > 0.0f ? spot : point;
+            light.outerConeAngle = cone;
+            const auto texels = rsmOf(embree, light, 0, 1, serialFor(), 128);
+            int valid = 0;
+            for (const ClvRsmTexel& texel : texels) {
+                if (texel.valid == 0u) continue;
+                ++valid;
+                const float plane = texel.position.x > 0.0f && texel.position.y > 0.0f && texel.position.z > 0.5f ? 1.0f : 0.0f;
+                EXPECT_NEAR(texel.position.z, plane, 0.5f * embree.surfaceOffset()) << distance << " m, cone " << cone;
+            }
+            EXPECT_GT(valid, 2000) << distance << " m, cone " << cone;
+            if (cone == 0.5f / distance) continue;
+            // Flux on a wall of 16 m^2 that half reflects and a black screen: I cos / r^2 by the area that is not hidden.
+            const double cosine = std::abs(light.position.z) / distance, hidden = 4.0;
+            const double expected = 0.5 * (16.0 - hidden) * cosine / (double(distance) * distance);
+            if (distance > 100.0f) EXPECT_NEAR(fluxOf(texels) / expected, 1.0, 0.03) << distance << " m, cone " << cone;
+        }
+    }
+}
+
 TEST(RsmRender, directionalLightLightsWhatItsProjectionCovers) {
     const Scene scene = wallAndScreen();
     const EmbreeScene embree(scene);

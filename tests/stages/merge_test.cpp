@@ -123,6 +123,7 @@ TEST(MergeValue, aValueThatIsNotFiniteLeavesTheHistoryAlone) {
         EXPECT_EQ(clvMergeValue(3.0f, bad, 0.5f), 3.0f);
         EXPECT_EQ(clvMergeValue(bad, 3.0f, 0.5f), 3.0f);
         EXPECT_EQ(clvMergeValue(3.0f, 4.0f, bad), 3.0f);
+        EXPECT_EQ(clvMergeValue(bad, 4.0f, bad), 4.0f);
     }
 }
 
@@ -139,6 +140,15 @@ TEST(LightDynamicity, aLightThatStandsStillHasNone) {
     EXPECT_EQ(clvLightDynamicity(spot(), spot(), kScales), 0.0f);
     ClvLight dark{};
     EXPECT_EQ(clvLightDynamicity(dark, dark, kScales), 0.0f);
+}
+
+TEST(LightDynamicity, anIntensityThatIsNotFiniteCountsWhole) {
+    for (int channel = 0; channel < 3; ++channel) {
+        ClvLight bad = spot();
+        bad.intensity[channel] = std::numeric_limits<float>::quiet_NaN();
+        EXPECT_EQ(clvLightDynamicity(spot(), bad, kScales), 1.0f);
+        EXPECT_EQ(clvLightDynamicity(bad, spot(), kScales), 1.0f);
+    }
 }
 
 TEST(LightDynamicity, movementCountsInUnitsOfItsScaleUpToOne) {

@@ -85,6 +85,12 @@ TEST(Roulette, keepsTheExpectedFluxAtEveryStrength) {
     }
 }
 
+TEST(Roulette, fluxThatIsNotFiniteDies) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
+    for (const float bad : {kNan, kInfinity, -kInfinity})
+        for (const vec3& flux : {vec3(bad, 1.0f, 0.0f), vec3(1.0f, bad, 0.0f), vec3(0.0f, 1.0f, bad)}) EXPECT_EQ(clvRoulette(flux, 0.5f, 0.3f), 0.0f) << flux.x << " " << flux.y << " " << flux.z;
+}
+
 TEST(Roulette, survivorsCarryTheThreshold) {
     vec3 flux(0.1f, 0.4f, 0.2f);
     float weight = clvRoulette(flux, 2.0f, 0.0f);

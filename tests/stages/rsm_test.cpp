@@ -135,6 +135,30 @@ TEST(Rsm, spotRaysFillTheOuterConeAndNoMore) {
     }
 }
 
+TEST(Rsm, raysFromAfarBeginBeforeTheSceneAndSpreadOverIt) {
+    const vec3 center = 0.5f * (kLo + kHi);
+    const float radius = 0.5f * length(kHi - kLo);
+    for (const float distance : {3.0f * radius, 1e4f, 1e8f}) {
+        ClvLight light = makeLight(kClvLightPoint);
+        const vec3 axis = glm::normalize(vec3(0.2f, -0.9f, 0.4f));
+        light.position = center - axis * distance;
+        double across = 0.0;
+        for (uint i = 0; i < 1000; ++i) {
+            const ClvRay ray = clvLightRay(light, vec2(randomUnit(18, 2 * i), randomUnit(18, 2 * i + 1)), kLo, kHi);
+            EXPECT_GE(length(ray.origin - center), 0.999f * radius);
+            EXPECT_LE(length(ray.origin - center), 3.0f * radius);
+            EXPECT_GT(dot(center - ray.origin, axis), 0.999f * radius);
+            // It passes through the light.
+            const vec3 away = ray.origin - light.position;
+            EXPECT_LE(length(away - ray.direction * dot(away, ray.direction)), 1e-6f * distance);
+            const vec3 met = ray.origin + ray.direction * (dot(center - ray.origin, axis) / dot(ray.direction, axis));
+            across += dot(met - center, met - center) / (1000.0 * radius * radius);
+        }
+        // Half of the square of the cap's radius, which is a hundredth wider than the sphere seen from there.
+        EXPECT_NEAR(across, 0.51, distance > 100.0f ? 0.03 : 0.1) << distance;
+    }
+}
+
 TEST(Rsm, directionalRaysStartOutsideTheBoundsAndCoverThem) {
     const ClvLight light = makeLight(kClvLightDirectional);
     vec3 tangent, bitangent;

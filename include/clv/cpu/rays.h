@@ -68,6 +68,10 @@ inline void chooseDirections(const RayGuide& guide, int count, uint firstIndex, 
 // Ray k of `out` is number firstIndex + k of the sequence; two dimensions pick the texel, two the direction. Each ray carries the
 // flux of the whole light, as if it were the only one: the mean over rays is the estimate. `originOffset`, m, see clvRayAlong.
 inline void makeRays(const TexelSampler& sampler, uint firstIndex, uint seed, float originOffset, std::span<ClvRay> out) {
+    if (sampler.empty()) {
+        std::fill(out.begin(), out.end(), clvDeadRay());
+        return;
+    }
     // In blocks and stage by stage, on arrays: the compiler then makes vectors of it, and memory is fetched for many rays at once.
     constexpr int kBlock = TexelSampler::kBlock;
     float u[kClvSobolDimensions][kBlock], probability[kBlock], normal[3][kBlock], direction[3][kBlock];

@@ -138,9 +138,10 @@ private:
     struct Mixture {
         float volume[kClvMostSlots] = {};
         float impurity() const {
-            float sum = 0.0f, squares = 0.0f;
-            for (float v : volume) sum += v, squares += v * v;
-            return sum > 0.0f ? sum - squares / sum : 0.0f;
+            // The square of the volume of a tiny or a huge cell is no float.
+            double sum = 0.0, squares = 0.0;
+            for (float v : volume) sum += v, squares += double(v) * v;
+            return sum > 0.0 ? float(sum - squares / sum) : 0.0f;
         }
         int largest() const { return int(std::max_element(volume, volume + kClvMostSlots) - volume); }
     };

@@ -47,7 +47,7 @@ public:
         return total;
     }
     // Call after the last build().
-    void finish() { longestStep_ = int(*std::max_element(steps_.begin(), steps_.end())); }
+    void finish() { longestStep_ = steps_.empty() ? 0 : int(*std::max_element(steps_.begin(), steps_.end())); }
 
     // For each k, the item of row[k] on which u[k], in [0, 1), falls, and its probability. Only items of positive probability come
     // out of a row that has any.
@@ -111,7 +111,7 @@ public:
     // By which directions are to be chosen, or null.
     const RayGuide* guide() const { return guide_; }
 
-    // Up to kBlock samples at once: for each u[k], v[k] in [0, 1) a texel, and its probability.
+    // Unless empty(), up to kBlock samples at once: for each u[k], v[k] in [0, 1) a texel, and its probability.
     void sample(int count, const float* u, const float* v, ClvRsmTexel* texel, float* probability) const {
         const int only[kBlock] = {};
         int row[kBlock], column[kBlock];

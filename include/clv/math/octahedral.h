@@ -22,7 +22,7 @@ CLV_FN vec3 clvOctahedronFromSquare(vec2 square) {
 
 CLV_FN vec3 clvDirectionFromOctahedral(vec2 square) { return normalize(clvOctahedronFromSquare(square)); }
 
-// Direction need not be of unit length, but must not be 0.
+// Direction need not be of unit length, but the sum of its components, without their signs, must be a normal float: not 0, nor 1e39.
 CLV_FN vec2 clvOctahedralFromDirection(vec3 direction) {
     float scale = 1.0f / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     vec2 square = vec2(direction.x * scale, direction.y * scale);

@@ -51,7 +51,10 @@ CLV_FN ClvRay clvFaceRay(ClvMapFace face, ClvRay ray, uvec2 texel, uvec2 size) {
     if (face.parallel == 1u) {
         ray.origin = face.origin + across;
     } else {
+        // As far from the light as it began.
+        float skipped = dot(ray.origin - face.origin, ray.direction);
         ray.direction = normalize(face.forward + across);
+        ray.origin = face.origin + ray.direction * skipped;
     }
     return ray;
 }

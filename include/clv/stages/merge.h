@@ -64,8 +64,8 @@ CLV_FN vec4 clvMergeStep(vec4 history, vec4 current, float weight) {
 
 // The same for values of another source: one that is not finite loses to the other one.
 CLV_FN float clvMergeValue(float history, float current, float weight) {
-    if (!clvIsFinite(current) || !clvIsFinite(weight)) return history;
     if (!clvIsFinite(history)) return current;
+    if (!clvIsFinite(current) || !clvIsFinite(weight)) return history;
     return clvMergeStep(history, current, weight);
 }
 
@@ -93,7 +93,7 @@ CLV_FN float clvAngleBetween(vec3 a, vec3 b) { return clvAtan2(length(cross(a, b
 // intensity, each over the scale at which history is worth nothing. A light that stands still has 0; another type, or
 // values that are not finite, give 1.
 CLV_FN float clvLightDynamicity(CLV_IN(ClvLight) previous, CLV_IN(ClvLight) current, ClvMovementScales scales) {
-    if (previous.type != current.type) return 1.0f;
+    if (previous.type != current.type || !clvIsFinite(previous.intensity) || !clvIsFinite(current.intensity)) return 1.0f;
     float moved = length(current.position - previous.position);
     float turned = clvAngleBetween(previous.direction, current.direction);
     float widened = abs(current.innerConeAngle - previous.innerConeAngle) + abs(current.outerConeAngle - previous.outerConeAngle);

@@ -48,10 +48,10 @@ CLV_FN ClvRay clvRayFromTexel(ClvRsmTexel texel, vec2 directionSample, float inv
 
 // Russian roulette: 0 kills the ray, anything else multiplies its flux. Rays whose largest channel is at or above
 // `threshold` (W) live on unchanged; a weaker one survives with probability largest / threshold and then carries
-// `threshold` there, so that the expected flux stays the same. u: in [0, 1). A ray without flux, or with NaN, dies.
+// `threshold` there, so that the expected flux stays the same. u: in [0, 1). A ray without flux, or whose flux is not finite, dies.
 CLV_FN float clvRoulette(vec3 flux, float threshold, float u) {
     float largest = max(flux.x, max(flux.y, flux.z));
-    if (!(largest > 0.0f)) return 0.0f;
+    if (!(largest > 0.0f) || !clvIsFinite(flux)) return 0.0f;
     if (largest >= threshold) return 1.0f;
     // u has 24 bits: no smaller chance can be drawn, and 1 / chance stays finite.
     float chance = max(largest / threshold, 1.0f / 16777216.0f);

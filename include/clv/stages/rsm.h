@@ -26,16 +26,23 @@ CLV_FN vec2 clvRsmSamplePoint(uvec2 texel, uint resolution, uint pass, uint seed
 CLV_FN float clvHalfExtentAlong(vec3 axis, vec3 lo, vec3 hi) { return 0.5f * dot(abs(axis), hi - lo); }
 
 // Direction of unit length in a cap around `axis` (unit length), uniform by solid angle: heights under the pole are uniform
-// (Archimedes). capHeight: 1 - cosine of the cap's half angle, (0, 2]; its solid angle is 2 pi capHeight.
-CLV_FN vec3 clvCapFromSquare(vec2 u, vec3 axis, float capHeight) {
+// (Archimedes). capHeight: 1 - cosine of the cap's half angle, (0, 2]; its solid angle is 2 pi capHeight. Returned is the part across
+// the axis; `cosine` is the part along it.
+CLV_FN vec3 clvAcrossCap(vec2 u, vec3 axis, float capHeight, CLV_OUT(float) cosine) {
     vec2 disk = clvDiskFromSquare(u);
     float height = capHeight * dot(disk, disk);
+    cosine = 1.0f - height;
     // The sine over the disk's radius; clamped, because rounding can push a height above 2.
     float across = sqrt(capHeight * max(0.0f, 2.0f - height));
     vec3 tangent;
     vec3 bitangent;
     clvBasis(axis, tangent, bitangent);
-    return normalize(axis * (1.0f - height) + tangent * (disk.x * across) + bitangent * (disk.y * across));
+    return tangent * (disk.x * across) + bitangent * (disk.y * across);
+}
+CLV_FN vec3 clvCapFromSquare(vec2 u, vec3 axis, float capHeight) {
+    float cosine;
+    vec3 across = clvAcrossCap(u, axis, capHeight, cosine);
+    return normalize(axis * cosine + across);
 }
 
 // The point of the square that clvCapFromSquare maps to `direction`.
@@ -65,6 +72,23 @@ CLV_FN float clvCapOfBox(vec3 position, vec3 lo, vec3 hi) {
     return sine * sine / (1.0f + sqrt(1.0f - sine * sine));
 }
 
+// The sphere around the box [lo, hi], and a little more.
+CLV_FN float clvRadiusOfBox(vec3 lo, vec3 hi) { return 0.505f * length(hi - lo); }
+
+// A ray from afar in the cap around `axis`, the direction from `position` to the middle of the box. It begins before the sphere around the
+// box, so that what it meets has the accuracy of the scene, not that of the light's distance; and what it misses the middle by
+// follows from the map, so that rays spread evenly over the scene from 1e9 times its size, too.
+CLV_FN void clvRayFromAfar(vec2 u, vec3 position, float capHeight, vec3 lo, vec3 hi, CLV_OUT(vec3) origin, CLV_OUT(vec3) direction) {
+    vec3 center = (lo + hi) * 0.5f;
+    vec3 away = center - position;
+    float distance = length(away);
+    vec3 axis = away / distance;
+    float cosine;
+    vec3 across = clvAcrossCap(u, axis, capHeight, cosine);
+    direction = normalize(axis * cosine + across);
+    origin = center + across * (distance / cosine) - direction * (clvRadiusOfBox(lo, hi) / cosine);
+}
+
 // A ray of a point light: one half of the map for each hemisphere; from afar the whole map for the scene alone.
 CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     float side = u.x < 0.5f ? 0.0f : 1.0f;
@@ -73,7 +97,7 @@ CLV_FN ClvRay clvPointLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     ray.origin = light.position;
     ray.maxDistance = kClvFar;
     if (capHeight < 2.0f) {
-        ray.direction = clvCapFromSquare(u, normalize((lo + hi) * 0.5f - light.position), capHeight);
+        clvRayFromAfar(u, light.position, capHeight, lo, hi, ray.origin, ray.direction);
     } else {
         ray.direction = clvCapFromSquare(vec2(2.0f * u.x - side, u.y), vec3(0.0f, 1.0f - 2.0f * side, 0.0f), 1.0f);
     }
@@ -90,12 +114,21 @@ CLV_FN ClvRay clvSpotLightRay(ClvLight light, vec2 u, vec3 lo, vec3 hi) {
     float coneHeight = 2.0f * halfSine * halfSine;
     float sceneHeight = clvCapOfBox(light.position, lo, hi);
     float capHeight = min(coneHeight, sceneHeight);
-    vec3 axis = light.direction;
-    if (sceneHeight < coneHeight) axis = normalize((lo + hi) * 0.5f - light.position);
     ClvRay ray;
-    ray.origin = light.position;
     ray.maxDistance = kClvFar;
-    ray.direction = clvCapFromSquare(u, axis, capHeight);
+    if (sceneHeight < coneHeight) {
+        clvRayFromAfar(u, light.position, capHeight, lo, hi, ray.origin, ray.direction);
+    } else {
+        ray.direction = clvCapFromSquare(u, light.direction, capHeight);
+        ray.origin = light.position;
+        if (sceneHeight < 2.0f) {
+            // From afar, too, it begins before the scene.
+            vec3 away = (lo + hi) * 0.5f - light.position;
+            float along = dot(away, ray.direction);
+            float radius = clvRadiusOfBox(lo, hi);
+            ray.origin += ray.direction * max(0.0f, along - radius);
+        }
+    }
     ray.dynamicity = light.dynamicity;
     float falloff = clvSpotFalloff(dot(ray.direction, light.direction), light.innerConeAngle, light.outerConeAngle);
     ray.flux = light.intensity * (2.0f * kClvPi * capHeight * falloff);
