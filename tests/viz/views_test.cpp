@@ -15,12 +15,15 @@ namespace {
 // move edges and letters by a fraction of a pixel.
 constexpr double kTolerance = 0.01;
 
+vtkNew<vtkPNGReader> readPicture(const std::string& file) {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return reader;
+}
+
 double differencePerPixel(const std::string& picture, const std::string& reference) {
-    vtkNew<vtkPNGReader> a, b;
-    a->SetFileName(picture.c_str());
-    b->SetFileName(reference.c_str());
-    a->Update();
-    b->Update();
+    const auto a = readPicture(picture), b = readPicture(reference);
     const int *size = a->GetOutput()->GetDimensions(), *expected = b->GetOutput()->GetDimensions();
     if (size[0] != expected[0] || size[1] != expected[1]) return 1.0;
     vtkNew<vtkImageDifference> difference;
@@ -93,6 +96,18 @@ INSTANTIATE_TEST_SUITE_P(Headless, Views,
                                            NamedView{"figure_3_3", {"--figure", "3.3"}, Shown::moved}, NamedView{"figure_4_1", {"--figure", "4.1"}},
                                            NamedView{"figure_4_3", {"--figure", "4.3"}}),
                          [](const auto& info) { return info.param.name; });
+
+TEST_F(Views, aVolumeIsAsDenseFromOneSideAsFromAnother) {
+    unsetenv("DISPLAY");
+    const std::string volume = bake("cornell", 12);
+    // All cells hold the light of the same number of rays. The background is darker than 30.
+    for (const std::string camera : {"0.28,0.28,-1.2,0.28,0.28,0.3", "1.7,0.28,0.28,0.3,0.28,0.28", "1.2,1.1,-0.9,0.28,0.28,0.28"}) {
+        const CommandResult result = runViz({volume, "--view", "samples", "--on", "volume", "--no-boxes", "--camera", camera, "--size", "160x120", "--out", file("picture.png")});
+        ASSERT_EQ(result.status, 0) << result.err;
+        const auto reader = readPicture(file("picture.png"));
+        for (int c = 0; c < 3; ++c) EXPECT_GT(reader->GetOutput()->GetScalarComponentAsDouble(80, 60, 0, c), 50.0) << camera;
+    }
+}
 
 TEST_F(Views, pictureIsWholeOrAbsent) {
     const std::string volume = bake("cornell", 8);
