@@ -74,16 +74,6 @@ private:
     }
 };
 
-std::vector<ShownCell> cellsOf(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor) {
-    if (carrierOf(view) != Carrier::slices) return shownCells(volume, view.filter, parallelFor);
-    std::vector<ShownCell> cells;
-    for (const SlicePlane& plane : view.slices) {
-        const std::vector<ShownCell> cut = cellsCutBy(volume, plane, view.filter);
-        cells.insert(cells.end(), cut.begin(), cut.end());
-    }
-    return cells;
-}
-
 // How well the truth is known: the standard error, in the unit of the errors, that most of the sides stay below.
 double noiseOf(const std::vector<std::optional<SideTruth>>& truth, std::span<const vec3> irradiance) {
     double mean = 0.0;
@@ -132,7 +122,7 @@ void drawCellErrors(const BakedVolume& volume, const World& world, const View& v
 }
 
 void drawCellTruth(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
-    Blocks blocks(view.subject == Subject::cubes ? shownCells(volume, view.filter, parallelFor) : cellsOf(volume, view, parallelFor));
+    Blocks blocks(cellsOf(volume, view, parallelFor));
     const auto truth = truthOf(blocks, volume, world, view, parallelFor);
     Measured measured(blocks);
     for (std::size_t i = 0; i < truth.size(); ++i) {

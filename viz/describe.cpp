@@ -73,7 +73,7 @@ std::string describe(const BakedVolume& volume, const Pick& pick, const LookupOp
     text += "\n";
     // The cell in front of a surface, not the one behind it.
     const float ahead = pick.normal ? kClvSideOffset * volume.cascades.front().level.volume.cellSize : 0.0f;
-    const auto cell = cellAt(volume, pick.position + ahead * pick.normal.value_or(vec3(0.0f)), {.cascade = {}, .threshold = -1.0f});
+    const auto cell = cellAt(volume, pick.position + ahead * pick.normal.value_or(vec3(0.0f)), {});
     text += cell ? describeCell(*cell, volume) : "no cell: solid, or outside all cascades\n";
     if (pick.normal) text += describeSurface(volume, {pick.position, 0.0f, *pick.normal, 0.0f}, lookup);
     return text;

@@ -85,7 +85,7 @@ float Inspector::aspect() const { return float(options_.width) / float(options_.
 
 void Inspector::checkCascade(const BakedVolume& volume) const {
     const std::size_t count = volume.cascades.size();
-    if (view_.filter.cascade.value_or(0) >= count) throw InputError(fmt::format("--cascade {}: expected a number below {}", *view_.filter.cascade, count));
+    if (view_.cascade.value_or(0) >= count) throw InputError(fmt::format("--cascade {}: expected a number below {}", *view_.cascade, count));
 }
 
 void Inspector::writePicture(const std::string& file) {

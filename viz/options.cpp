@@ -72,8 +72,10 @@ void addWhat(CLI::App& app, VizOptions& options) {
            },
            "Planes across the axes, m: x=0.5 z=1.2")
         ->take_all();
-    app.add_option_function<uint>("--cascade", [&view](uint cascade) { view.filter.cascade = cascade; }, "Show the cells of this cascade alone, from 0, the finest");
-    app.add_option("--threshold", view.filter.threshold, "Leave out cells none of whose sides receives more, W/m^2")->check(finiteNumber(-1.0, std::numeric_limits<float>::max(), "an irradiance"));
+    app.add_option_function<uint>("--cascade", [&view](uint cascade) { view.cascade = cascade; }, "Show the cells of this cascade alone, from 0, the finest");
+    app.add_option("--threshold", view.threshold, "Leave out cubes none of whose sides receives as much, W/m^2; 0: none")
+        ->check(finiteNumber(-std::numeric_limits<double>::min(), std::numeric_limits<float>::max(), "an irradiance, 0 or more"))
+        ->default_str("any light");
     app.add_option_function<std::array<double, 2>>("--range", [&view](const std::array<double, 2>& range) {
         if (!(range[0] < range[1])) throw InputError(fmt::format("--range: expected a smaller number and a larger one, found {},{}", range[0], range[1]));
         view.range = {range[0], range[1]};

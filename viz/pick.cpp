@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viz/cell_values.h"
+
 namespace clv {
 namespace {
 
@@ -29,7 +31,7 @@ struct Nearest {
 };
 
 void offerCells(const BakedVolume& volume, const View& view, const Sight& sight, const ParallelFor& parallelFor, Nearest& nearest) {
-    for (const ShownCell& cell : shownCells(volume, view.filter, parallelFor)) {
+    for (const ShownCell& cell : cellsOf(volume, view, parallelFor)) {
         nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), {cell.center, {}, {}});
     }
 }
@@ -40,7 +42,7 @@ void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight
         const float distance = (float(view.slices[k].place - volume.anchor[axis]) - sight.origin[axis]) / sight.direction[axis];
         if (!(distance > 0.0f)) continue;
         const vec3 position = sight.origin + distance * sight.direction;
-        if (cellAt(volume, position, view.filter)) nearest.offer(distance, {position, {}, k});
+        if (cellAt(volume, position, view.cascade)) nearest.offer(distance, {position, {}, k});
     }
 }
 
@@ -62,7 +64,7 @@ std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, con
     const bool error = view.subject == Subject::error, quantity = error || quantityOf(view.subject);
     const bool surfaces = view.mesh || view.subject == Subject::mesh || (error && carrier == Carrier::surfaces);
     if (quantity && carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
-    if (view.subject == Subject::cubes || (quantity && carrier == Carrier::cells)) offerCells(volume, view, sight, parallelFor, nearest);
+    if (showsCubes(view)) offerCells(volume, view, sight, parallelFor, nearest);
     if (world && (surfaces || !nearest.pick)) offerSurface(*world, view.backs, sight, nearest);
     return nearest.pick;
 }
