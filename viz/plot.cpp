@@ -1,6 +1,7 @@
 #include "viz/plot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@ namespace {
 
 constexpr int kProbeSteps = 512;
 constexpr std::size_t kBars = 32;
+constexpr double kEqualExtent = 0.1;  // of the value
 constexpr float kGap = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
@@ -30,9 +32,11 @@ Plot histogram(const BakedVolume& volume, Quantity quantity, ShownCascade only, 
     Plot plot{fmt::format("{} cells", values.size()), titleOf(quantity), "cells", {}, true};
     if (values.empty()) return plot;
     const auto [least, most] = std::ranges::minmax(values);
-    const double width = std::max(double(most - least), 1e-30) / double(kBars);
-    for (std::size_t k = 0; k < kBars; ++k) plot.points.emplace_back(least + (double(k) + 0.5) * width, 0.0);
-    for (const float value : values) plot.points[std::min(kBars - 1, std::size_t((value - least) / width))].y += 1.0;
+    // Of equal values the bar stands in the middle of a range that shows where.
+    const double extent = most > least ? double(most - least) : kEqualExtent * std::max(1.0, std::abs(double(most)));
+    const double width = extent / double(kBars), first = most > least ? double(least) : double(least) - 0.5 * extent;
+    for (std::size_t k = 0; k < kBars; ++k) plot.points.emplace_back(first + (double(k) + 0.5) * width, 0.0);
+    for (const float value : values) plot.points[std::min(kBars - 1, std::size_t((double(value) - first) / width))].y += 1.0;
     return plot;
 }
 

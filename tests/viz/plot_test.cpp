@@ -67,6 +67,8 @@ TEST(Histogram, ofEqualValuesIsOneBar) {
     for (BakedCascade& cascade : volume.cascades) std::ranges::fill(cascade.samples, 64.0f);
     const Plot plot = histogram(volume, Quantity::samples, {}, serialFor());
     EXPECT_EQ(std::ranges::count_if(plot.points, [](const glm::dvec2& bar) { return bar.y > 0.0; }), 1);
+    EXPECT_LT(plot.points.front().x, 64.0);
+    EXPECT_GT(plot.points.back().x, 64.0);
 }
 
 TEST(Difference, isRedWhereTheFirstHasMoreAndBlueWhereItHasLess) {
