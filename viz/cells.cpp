@@ -8,15 +8,16 @@
 namespace clv {
 namespace {
 
-constexpr float kWorstNoise = 100.0f;  // %
+constexpr double kWorstNoise = 100.0;  // %
 
 float noiseOf(const CellLight& light, std::size_t firstSide, std::size_t endSide) {
-    float variance = 0.0f, square = 0.0f;
+    double variance = 0.0, square = 0.0;
     for (std::size_t side = firstSide; side < endSide; ++side) {
-        variance += light.variance[side];
-        square += dot(light.irradiance[side], light.irradiance[side]) / 3.0f;
+        const glm::dvec3 irradiance(light.irradiance[side]);
+        variance += double(light.variance[side]);
+        square += dot(irradiance, irradiance) / 3.0;
     }
-    return square > 0.0f ? std::min(kWorstNoise, 100.0f * std::sqrt(variance / square)) : kWorstNoise;
+    return square > 0.0 ? float(std::min(kWorstNoise, 100.0 * std::sqrt(variance / square))) : float(kWorstNoise);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ Drawing compose(const BakedVolume& volume, const World* world, const View& view,
 }
 
 Drawing composeDifference(const BakedVolume& volume, const BakedVolume& other, const View& view, const ParallelFor& parallelFor) {
+    if (!quantityOf(view.subject) && view.subject != Subject::cubes) throw InputError(fmt::format("no difference of {} is shown", nameOf(view.subject)));
     Drawing drawing;
     drawDifference(volume, other, quantityOf(view.subject).value_or(Quantity::irradiance), view, parallelFor, drawing);
     if (view.boxes) drawBoxes(volume, drawing);

@@ -32,7 +32,9 @@ void nextCascade(Inspector& inspector) {
 }
 
 void nextCarrier(View& view) {
-    view.carrier = Carrier((int(carrierOf(view)) + 1) % (view.subject == Subject::error ? 4 : 3));
+    int next = int(carrierOf(view)) + 1;
+    if (Carrier(next) == Carrier::slices && view.slices.empty()) ++next;
+    view.carrier = Carrier(next % (view.subject == Subject::error ? 4 : 3));
 }
 
 // Steps: all cells, those with any light, then in powers of two.
@@ -80,7 +82,8 @@ std::vector<Key> makeKeys() {
     keys.push_back({"Home", "home", "first frame", [](Inspector& i) { i.showFrame(0); }});
     keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames()); }});
     keys.push_back({"u", "u", "live: cascades follow the view, or stay", [](Inspector& i) { i.toggleFollowing(); }});
-    keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
+    keys.push_back({"s", "s", "through the scene's cameras, one after the other", [](Inspector& i) { i.nextCamera(); }});
+    keys.push_back({"r", "r", "the whole scene from outside", [](Inspector& i) { i.resetCamera(); }});
     keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
     return keys;
 }

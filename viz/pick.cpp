@@ -58,6 +58,12 @@ void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& n
 
 }  // namespace
 
+Pick typedPick(const std::vector<double>& n, const BakedVolume& volume) {
+    Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
+    if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
+    return pick;
+}
+
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor) {
     Nearest nearest;
     const Carrier carrier = carrierOf(view);
@@ -65,9 +71,16 @@ std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, con
     const bool surfaces = view.mesh || view.subject == Subject::mesh || (error && carrier == Carrier::surfaces);
     if (quantity && carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
     if (showsCubes(view)) offerCells(volume, view, sight, parallelFor, nearest);
-    if (world && (surfaces || !nearest.pick)) offerSurface(*world, view.backs, sight, nearest);
+    if (world && surfaces) offerSurface(*world, view.backs, sight, nearest);
     return nearest.pick;
 }
+
+vec3 placeInCell(const BakedVolume& volume, const Pick& pick) {
+    const float ahead = kClvSideOffset * volume.cascades.front().level.volume.cellSize;
+    return pick.position + ahead * pick.normal.value_or(vec3(0.0f));
+}
+
+std::optional<ShownCell> pickedCell(const BakedVolume& volume, const Pick& pick) { return cellAt(volume, placeInCell(volume, pick), {}); }
 
 float draggedPlace(const vec3& grabbed, int axis, const Sight& sight) {
     vec3 along(0.0f);
