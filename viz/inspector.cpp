@@ -70,6 +70,8 @@ void Inspector::startLive() {
     live_ = std::make_unique<LiveMode>(*panes_[0], options_.live, [this] { return viewCamera(); }, parallelFor_);
     for (int frame = 0; frame < options_.live.frames; ++frame) live_->frame();
     view_.lights = true;
+    // The grid over the scene is wider than the scene itself.
+    if (options_.live.settings.cascades == 0) placeCamera(options_.camera);
 }
 
 void Inspector::addTimeSlider() {
@@ -239,9 +241,9 @@ void Inspector::toggleHelp() {
 
 void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
-    // The coarsest of several cascades may be far wider than the scene, and those that follow the view would lead it ever farther away.
-    const bool wide = options_.live.on || pane().volume().cascades.size() > 1;
-    const Bounds bounds = wide && scene ? scene->bounds : boundsOf(pane().volume().cascades.back().level.volume);
+    // Cascades that follow the view would lead it ever farther away.
+    const std::vector<BakedCascade>& cascades = pane().volume().cascades;
+    const Bounds bounds = cascades.empty() || (options_.live.on && cascades.size() > 1) ? scene->bounds : boundsOf(cascades.back().level.volume);
     place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, pane().volume(), scene));
 }
 

@@ -83,7 +83,7 @@ std::vector<Key> makeKeys() {
     keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames()); }});
     keys.push_back({"u", "u", "live: cascades follow the view, or stay", [](Inspector& i) { i.toggleFollowing(); }});
     keys.push_back({"s", "s", "through the scene's cameras, one after the other", [](Inspector& i) { i.nextCamera(); }});
-    keys.push_back({"r", "r", "the whole scene from outside", [](Inspector& i) { i.resetCamera(); }});
+    keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
     keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
     return keys;
 }

@@ -7,8 +7,8 @@
 
 namespace clv {
 
-// The standard error that half of the points stay below, in the unit of pointErrors(): a share of max(|T|, 0.05 mean |T|). Spans of the
-// same size, W/m^2; 0 for none.
+// The standard error that half of the points stay below which receive light, in the unit of pointErrors(): a share of max(|T|, 0.05 mean |T|).
+// Spans of the same size, W/m^2; 0 where none does.
 double medianError(std::span<const float> standardErrors, std::span<const glm::vec3> truth);
 
 }  // namespace clv
