@@ -63,6 +63,7 @@ void Canvas::show(const Drawing& drawing) {
     add(drawing.lines);
     add(drawing.points);
     add(drawing.thickLines);
+    add(drawing.signs);
     for (const GridValues& grid : drawing.grids) props_.push_back(volumeOf(grid, *drawing.scale));
     const int width = int(share_ * window_.GetSize()[0]), height = window_.GetSize()[1];
     if (drawing.plot) props_.push_back(actorOf(*drawing.plot, width, height));

@@ -21,7 +21,7 @@ const World& needed(const World* world, Subject subject) {
 void drawProbe(const BakedVolume& volume, Quantity quantity, const View& view, Drawing& drawing) {
     const vec3 from(view.probe->first - volume.anchor), to(view.probe->second - volume.anchor);
     drawing.plot = probe(volume, quantity, view.cascade, from, to);
-    drawing.thickLines.add(from, to, kProbeColor);
+    drawing.signs.add(from, to, kProbeColor);
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ void Inspector::showPanels() {
 
 void Inspector::showMarks() {
     for (std::size_t k = 0; k < panes_.size(); ++k) {
-        FlatLines edges;
+        FlatLines edges{.points = {}, .colors = {}, .width = 2.0f, .inFront = true};
         for (const Pick& pick : marked_) {
             if (const auto cell = pickedCell(panes_[k]->volume(), pick)) drawCellEdges(*cell, edges);
         }

@@ -36,7 +36,6 @@ void drawBoxes(const BakedVolume& volume, Drawing& drawing) {
 }
 
 void drawCellEdges(const ShownCell& cell, FlatLines& lines) {
-    lines.width = 2.0f;
     addBox(lines, cell.center - 0.5f * cell.edge, vec3(cell.edge), kMarkColor);
 }
 
@@ -52,7 +51,7 @@ void drawFrustum(const BakedVolume& volume, const Scene* scene, Drawing& drawing
         const float x = i & 1 ? 1.0f : -1.0f, y = i & 2 ? 1.0f : -1.0f, distance = i & 4 ? far : near;
         corners[i] = camera.position + distance * (camera.forward + tangent * (x * camera.aspect * right + y * camera.up));
     }
-    addHexahedron(drawing.thickLines, corners, kFrustumColor);
+    addHexahedron(drawing.signs, corners, kFrustumColor);
 }
 
 void drawLights(const BakedVolume& volume, Drawing& drawing) {
@@ -65,9 +64,9 @@ void drawLights(const BakedVolume& volume, Drawing& drawing) {
         for (int axis = 0; axis < 3; ++axis) {
             vec3 arm(0.0f);
             arm[axis] = size;
-            drawing.thickLines.add(position - arm, position + arm, kLightColor);
+            drawing.signs.add(position - arm, position + arm, kLightColor);
         }
-        if (light.type != kClvLightPoint) drawing.thickLines.add(position, position + 3.0f * size * light.direction, kLightColor);
+        if (light.type != kClvLightPoint) drawing.signs.add(position, position + 3.0f * size * light.direction, kLightColor);
     }
 }
 

@@ -146,7 +146,7 @@ TEST_F(VizUsage, anotherSceneThanTheVolumesIsRefusedInOneLine) {
     writeGlb(other, file("other.glb"));
     const std::string volume = bake("cornell", 4);
     EXPECT_EQ(runViz({volume, "--scene", file("same.glb"), "--view", "mesh", "--size", "64x48", "--out", file("p.png")}).status, 0);
-    for (const std::string scene : {file("other.glb"), std::string("furnace_box"), std::string("two_rooms")}) {
+    for (const std::string& scene : {file("other.glb"), std::string("furnace_box"), std::string("two_rooms")}) {
         const CommandResult result = runViz({volume, "--scene", scene, "--view", "mesh", "--out", file("q.png")});
         EXPECT_EQ(result.status, 2) << scene;
         EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;

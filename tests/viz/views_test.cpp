@@ -80,7 +80,8 @@ TEST_P(Views, lookLikeTheirReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Headless, Views,
-                         ::testing::Values(NamedView{"cubes", {}, Shown::one, 1}, NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}, Shown::one, 1},
+                         ::testing::Values(NamedView{"cubes", {}, Shown::one, 1}, NamedView{"lights_behind_cubes", {"--lights", "--frustum", "--pick", "0.28,0.28,0.28"}},
+                                            NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}, Shown::one, 1},
                                            NamedView{"picked_cell", {"--view", "irradiance", "--slice", "z=0.3", "--pick", "0.2,0.3,0.3"}},
                                            NamedView{"noise_slices", {"--view", "noise", "--slice", "z=0.1"}},
                                            NamedView{"irradiance_volume", {"--view", "irradiance", "--on", "volume", "--wireframe"}, Shown::one, 1},
