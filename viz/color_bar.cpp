@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <vtkLookupTable.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextProperty.h>
 
 #include "viz/text_style.h"
