@@ -8,10 +8,10 @@
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
+#include "viz/color_bar.h"
 #include "viz/drawing.h"
 
 namespace clv {
@@ -28,14 +28,17 @@ public:
     // Lines of text at the left, below the caption.
     void setPanel(const std::string& text);
 
+    // A line at the lower right.
+    void setStatus(const std::string& text);
+    // Lines that stay while drawings change.
+    void setMark(const FlatLines& lines);
+
     // Height below which the colour bar stays, as a share of the window: what is above it is taken.
     void setBarTop(double top) { barTop_ = top; }
 
     vtkRenderer& renderer() { return *renderer_; }
 
 private:
-    void placeBar();
-    void showScale(const std::optional<ColorScale>& scale);
     void prepareFrame();
 
     vtkRenderWindow& window_;
@@ -44,8 +47,9 @@ private:
     vtkNew<vtkRenderer> renderer_;
     CubeActors cubes_;
     std::vector<vtkSmartPointer<vtkProp>> props_;
-    vtkNew<vtkScalarBarActor> bar_;
-    vtkNew<vtkTextActor> caption_, panel_, barTitle_;
+    vtkSmartPointer<vtkActor> mark_;  // null: nothing is marked
+    ColorBar bar_;
+    vtkNew<vtkTextActor> caption_, panel_, status_;
 };
 
 }  // namespace clv

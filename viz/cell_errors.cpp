@@ -10,6 +10,7 @@
 
 #include "benchmarks/report/metrics.h"
 #include "viz/cell_shapes.h"
+#include "viz/truth_error.h"
 
 namespace clv {
 namespace {
@@ -74,31 +75,6 @@ private:
     }
 };
 
-std::vector<ShownCell> cellsOf(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor) {
-    if (carrierOf(view) != Carrier::slices) return shownCells(volume, view.filter, parallelFor);
-    std::vector<ShownCell> cells;
-    for (const SlicePlane& plane : view.slices) {
-        const std::vector<ShownCell> cut = cellsCutBy(volume, plane, view.filter);
-        cells.insert(cells.end(), cut.begin(), cut.end());
-    }
-    return cells;
-}
-
-// How well the truth is known: the standard error, in the unit of the errors, that most of the sides stay below.
-double noiseOf(const std::vector<std::optional<SideTruth>>& truth, std::span<const vec3> irradiance) {
-    double mean = 0.0;
-    for (const vec3& e : irradiance) mean += double(glm::length(e)) / double(irradiance.size());
-    std::vector<double> shares;
-    for (const auto& cell : truth) {
-        for (std::size_t side = 0; cell && side < kSides; ++side)
-            shares.push_back(relativeTo(double(cell->standardError[side]), std::max(double(glm::length(cell->irradiance[side])), 0.05 * mean)));
-    }
-    if (shares.empty()) return 0.0;
-    const auto middle = shares.begin() + std::ptrdiff_t(shares.size() / 2);
-    std::ranges::nth_element(shares, middle);
-    return *middle;
-}
-
 std::vector<std::optional<SideTruth>> truthOf(const Blocks& blocks, const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor) {
     return world.cellTruth().of(blocks.measured, world.embree(), {.allBounces = volume.allBounces, .samples = view.errorSamples}, parallelFor);
 }
@@ -113,10 +89,12 @@ void drawCellErrors(const BakedVolume& volume, const World& world, const View& v
     const Blocks blocks(cellsOf(volume, view, parallelFor));
     const auto truth = truthOf(blocks, volume, world, view, parallelFor);
     std::vector<vec3> estimates, truths;
+    std::vector<float> standardErrors;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         for (std::size_t side = 0; truth[i] && side < kSides; ++side) {
             estimates.push_back(blocks.measured[i].light.irradiance[side]);
             truths.push_back(truth[i]->irradiance[side]);
+            standardErrors.push_back(truth[i]->standardError[side]);
         }
     }
     const std::vector<float> errors = pointErrors(estimates, truths);
@@ -124,7 +102,7 @@ void drawCellErrors(const BakedVolume& volume, const World& world, const View& v
     for (std::size_t i = 0; i < truth.size(); ++i) {
         if (truth[i]) measured.add(i, std::span(errors).subspan(kSides * measured.cells.size()).first<kSides>());
     }
-    drawing.caption = fmt::format("error of the cells' sides against path tracing, itself known to {:.1f} %", 100.0 * noiseOf(truth, truths));
+    drawing.caption = fmt::format("error of the cells' sides against path tracing, itself known to {:.1f} %", 100.0 * medianError(standardErrors, truths));
     sayBlocks(blocks, drawing);
     drawing.scale = scaleFor("error / truth", errors);
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
@@ -132,7 +110,7 @@ void drawCellErrors(const BakedVolume& volume, const World& world, const View& v
 }
 
 void drawCellTruth(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
-    Blocks blocks(view.subject == Subject::cubes ? shownCells(volume, view.filter, parallelFor) : cellsOf(volume, view, parallelFor));
+    Blocks blocks(cellsOf(volume, view, parallelFor));
     const auto truth = truthOf(blocks, volume, world, view, parallelFor);
     Measured measured(blocks);
     for (std::size_t i = 0; i < truth.size(); ++i) {

@@ -6,6 +6,8 @@
 namespace clv {
 namespace {
 
+constexpr const char* kUnknown = ": unknown from a single estimate of the light";
+
 void checkSameGrids(const BakedVolume& a, const BakedVolume& b) {
     bool same = a.cascades.size() == b.cascades.size() && a.anchor == b.anchor;
     for (std::size_t i = 0; same && i < a.cascades.size(); ++i) {
@@ -35,20 +37,29 @@ void drawCubes(const std::vector<ShownCell>& cells, const View& view, Drawing& d
 
 void drawQuantity(const BakedVolume& volume, Quantity quantity, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     drawing.caption = titleOf(quantity);
-    if (quantity == Quantity::variance && !knowsVariance(volume)) drawing.caption += ": unknown, this volume is a single estimate";
+    if (!knows(volume, quantity)) {
+        drawing.caption += kUnknown;
+        return;
+    }
+    if (volume.allBounces && (quantity == Quantity::variance || quantity == Quantity::noise)) drawing.caption += ", without that of further bounces";
     if (quantity == Quantity::dynamicity && volume.cascades.front().dynamicity.empty()) drawing.caption += ": none, no light moves in this volume";
-    const std::vector<ShownCell> cells = shownCells(volume, view.filter, parallelFor);
+    std::vector<ShownCell> cells = shownCells(volume, view.cascade, parallelFor);
     const CellValues values{[quantity](const ShownCell& cell, std::size_t side) { return valueOf(cell, quantity, side); },
                             [quantity](const ShownCell& cell) { return valueOf(cell, quantity); }};
     drawing.scale = scaleFor(titleOf(quantity), valuesOfSides(cells, values));
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
+    leaveOutDim(view, cells);
     drawValues(volume, cells, values, view, drawing);
 }
 
 void drawDifference(const BakedVolume& volume, const BakedVolume& other, Quantity quantity, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     checkSameGrids(volume, other);
     drawing.caption = "difference, left minus right file: " + titleOf(quantity);
-    const std::vector<ShownCell> cells = shownCells(volume, view.filter, parallelFor);
+    if (!knows(volume, quantity) || !knows(other, quantity)) {
+        drawing.caption += kUnknown;
+        return;
+    }
+    std::vector<ShownCell> cells = shownCells(volume, view.cascade, parallelFor);
     const auto there = [&other](ShownCell cell) {
         const BakedCascade& baked = other.cascades[cell.cascade];
         cell.light = cellLight(other, baked, clvCellIndex(baked.level.volume, cell.cell));
@@ -58,6 +69,7 @@ void drawDifference(const BakedVolume& volume, const BakedVolume& other, Quantit
                             [=](const ShownCell& cell) { return valueOf(cell, quantity) - valueOf(there(cell), quantity); }};
     drawing.scale = differenceScaleFor(titleOf(quantity), valuesOfSides(cells, values));
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
+    leaveOutDim(view, cells);
     drawValues(volume, cells, values, view, drawing);
 }
 

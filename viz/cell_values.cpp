@@ -12,7 +12,7 @@ constexpr std::size_t kMostCubes = 300000;  // that are drawn; more are merged
 
 void addTiles(const BakedVolume& volume, const CellValues& values, const View& view, const SlicePlane& plane, const ColorScale& scale, FlatQuads& tiles) {
     const int axis = plane.axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
-    for (const ShownCell& cell : cellsCutBy(volume, plane, view.filter)) {
+    for (const ShownCell& cell : cellsCutBy(volume, plane, view.cascade)) {
         const float value = values.ofCell(cell);
         if (!std::isfinite(value)) continue;
         static constexpr float kCorner[4][2] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
@@ -25,11 +25,11 @@ void addTiles(const BakedVolume& volume, const CellValues& values, const View& v
     }
 }
 
-GridValues gridOf(const BakedVolume& volume, uint cascade, const CellValues& values, const CellFilter& filter) {
+GridValues gridOf(const BakedVolume& volume, uint cascade, const CellValues& values, ShownCascade only) {
     GridValues grid{volume.cascades[cascade].level.volume, {}};
     grid.values.resize(volume.cascades[cascade].level.cellCount(), std::numeric_limits<float>::quiet_NaN());
     for (uint i = 0; i < grid.values.size(); ++i) {
-        if (const auto shown = shownCell(volume, cascade, clvCellFromIndex(grid.grid, i), filter)) grid.values[i] = values.ofCell(*shown);
+        if (const auto shown = shownCell(volume, cascade, clvCellFromIndex(grid.grid, i), only)) grid.values[i] = values.ofCell(*shown);
     }
     return grid;
 }
@@ -44,7 +44,7 @@ std::vector<float> valuesOfSides(const std::vector<ShownCell>& cells, const Cell
     return all;
 }
 
-std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& plane, const CellFilter& filter) {
+std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& plane, ShownCascade only) {
     const int axis = plane.axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
     const float place = float(plane.place - volume.anchor[axis]);
     std::vector<ShownCell> cells;
@@ -55,11 +55,29 @@ std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& p
         if (cell[axis] < 0 || cell[axis] >= grid.resolution[axis]) continue;
         for (cell[v] = 0; cell[v] < grid.resolution[v]; ++cell[v]) {
             for (cell[u] = 0; cell[u] < grid.resolution[u]; ++cell[u]) {
-                if (const auto shown = shownCell(volume, cascade, cell, filter)) cells.push_back(*shown);
+                if (const auto shown = shownCell(volume, cascade, cell, only)) cells.push_back(*shown);
             }
         }
     }
     return cells;
+}
+
+std::vector<ShownCell> cellsOf(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor) {
+    std::vector<ShownCell> cells;
+    if (showsCubes(view) || carrierOf(view) != Carrier::slices) {
+        cells = shownCells(volume, view.cascade, parallelFor);
+        if (showsCubes(view)) leaveOutDim(view, cells);
+        return cells;
+    }
+    for (const SlicePlane& plane : view.slices) {
+        const std::vector<ShownCell> cut = cellsCutBy(volume, plane, view.cascade);
+        cells.insert(cells.end(), cut.begin(), cut.end());
+    }
+    return cells;
+}
+
+void leaveOutDim(const View& view, std::vector<ShownCell>& cells) {
+    std::erase_if(cells, [least = view.threshold](const ShownCell& cell) { return brightest(cell.light) < least; });
 }
 
 LitCube cubeOf(const ShownCell& cell) {
@@ -79,7 +97,7 @@ void drawValues(const BakedVolume& volume, const std::vector<ShownCell>& cells, 
         drawing.tiles.oneSided = false;
         for (const SlicePlane& plane : view.slices) addTiles(volume, values, view, plane, *drawing.scale, drawing.tiles);
     } else if (carrier == Carrier::volume) {
-        for (uint cascade = 0; cascade < volume.cascades.size(); ++cascade) drawing.grids.push_back(gridOf(volume, cascade, values, view.filter));
+        for (uint cascade = 0; cascade < volume.cascades.size(); ++cascade) drawing.grids.push_back(gridOf(volume, cascade, values, view.cascade));
     } else {
         std::vector<LitCube> cubes;
         for (const ShownCell& cell : cells) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "clv/cpu/parallel.h"
 #include "viz/cells.h"
 #include "viz/drawing.h"
 
@@ -17,7 +18,12 @@ struct CellValues {
 std::vector<float> valuesOfSides(const std::vector<ShownCell>& cells, const CellValues& values);
 
 // The cells that a plane cuts; where cells of several cascades do, each place is shown by one of them.
-std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& plane, const CellFilter& filter);
+std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& plane, ShownCascade only);
+
+// The cells that a view shows: those of its cubes, on its slices, or all.
+std::vector<ShownCell> cellsOf(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor);
+// Of cells that may be drawn as cubes: erases those below the view's threshold.
+void leaveOutDim(const View& view, std::vector<ShownCell>& cells);
 
 LitCube cubeOf(const ShownCell& cell);
 // Cubes that are too many are merged.

@@ -27,15 +27,21 @@ glm::u8vec3 ColorScale::color(double value) const {
 
 ColorScale scaleFor(const std::string& title, std::vector<float> values) {
     std::erase_if(values, [](float value) { return !std::isfinite(value); });
-    if (values.empty()) return {title, 0.0, 1.0};
+    ColorScale scale{.title = title};
+    if (values.empty()) return scale;
+    const auto [least, most] = std::ranges::minmax(values);
+    scale.least = least, scale.most = most;
     const auto p95 = values.begin() + std::ptrdiff_t(values.size() * 95 / 100);
     std::ranges::nth_element(values, p95);
-    return {title, 0.0, *p95 > 0.0f ? niceCeiling(*p95) : 1.0};
+    if (*p95 > 0.0f) scale.hi = niceCeiling(*p95);
+    return scale;
 }
 
 ColorScale differenceScaleFor(const std::string& title, std::vector<float> values) {
-    for (float& value : values) value = std::abs(value);
+    std::vector<float> sizes = values;
+    for (float& size : sizes) size = std::abs(size);
     ColorScale scale = scaleFor(title, std::move(values));
+    scale.hi = scaleFor(title, std::move(sizes)).hi;
     scale.lo = -scale.hi;
     scale.difference = true;
     return scale;

@@ -15,6 +15,7 @@ struct ColorScale {
     std::string title;  // the quantity and its unit
     double lo = 0.0, hi = 1.0;
     bool difference = false;
+    double least = 0.0, most = 0.0;  // of the values that are shown, which may lie beyond the ends
 
     glm::u8vec3 color(double value) const;
 };

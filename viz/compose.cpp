@@ -20,8 +20,8 @@ const World& needed(const World* world, Subject subject) {
 // A plot, and where its line runs.
 void drawProbe(const BakedVolume& volume, Quantity quantity, const View& view, Drawing& drawing) {
     const vec3 from(view.probe->first - volume.anchor), to(view.probe->second - volume.anchor);
-    drawing.plot = probe(volume, quantity, view.filter, from, to);
-    drawing.thickLines.add(from, to, kProbeColor);
+    drawing.plot = probe(volume, quantity, view.cascade, from, to);
+    drawing.signs.add(from, to, kProbeColor);
 }
 
 }  // namespace
@@ -31,15 +31,15 @@ Drawing compose(const BakedVolume& volume, const World* world, const View& view,
     const bool cellTruth = view.truth && (view.subject == Subject::cubes || view.subject == Subject::irradiance);
     if (view.truth && !cellTruth && view.subject != Subject::mesh) throw InputError(fmt::format("--truth: expected --view cubes, irradiance or mesh, not {}", nameOf(view.subject)));
     if (cellTruth) drawCellTruth(volume, needed(world, view.subject), view, parallelFor, drawing);
-    else if (view.subject == Subject::cubes) drawCubes(shownCells(volume, view.filter, parallelFor), view, drawing);
+    else if (view.subject == Subject::cubes) drawCubes(cellsOf(volume, view, parallelFor), view, drawing);
     else if (const auto quantity = quantityOf(view.subject)) drawQuantity(volume, *quantity, view, parallelFor, drawing);
     if (view.subject == Subject::error) (carrierOf(view) == Carrier::surfaces ? drawError : drawCellErrors)(volume, needed(world, view.subject), view, parallelFor, drawing);
     if (view.subject == Subject::mesh || view.mesh) drawMesh(volume, needed(world, Subject::mesh), view, parallelFor, drawing);
     if (view.subject == Subject::rays || view.rays > 0) drawRays(needed(world, Subject::rays), view, parallelFor, drawing);
     if (view.subject == Subject::texels || view.texels) drawTexels(needed(world, Subject::texels), view, parallelFor, drawing);
     const Quantity plotted = quantityOf(view.subject).value_or(Quantity::irradiance);
-    if (view.histogram) drawing.plot = histogram(volume, plotted, view.filter, parallelFor);
-    if (view.probe) drawProbe(volume, plotted, view, drawing);
+    if (view.histogram && knows(volume, plotted)) drawing.plot = histogram(volume, plotted, view.cascade, parallelFor);
+    if (view.probe && knows(volume, plotted)) drawProbe(volume, plotted, view, drawing);
     if (view.wireframe || view.subject == Subject::rays || view.subject == Subject::texels) drawWireframe(needed(world, view.subject).scene(), drawing);
     if (view.boxes) drawBoxes(volume, drawing);
     if (view.frustum) drawFrustum(volume, world ? &world->scene() : nullptr, drawing);
@@ -48,6 +48,7 @@ Drawing compose(const BakedVolume& volume, const World* world, const View& view,
 }
 
 Drawing composeDifference(const BakedVolume& volume, const BakedVolume& other, const View& view, const ParallelFor& parallelFor) {
+    if (!quantityOf(view.subject) && view.subject != Subject::cubes) throw InputError(fmt::format("no difference of {} is shown", nameOf(view.subject)));
     Drawing drawing;
     drawDifference(volume, other, quantityOf(view.subject).value_or(Quantity::irradiance), view, parallelFor, drawing);
     if (view.boxes) drawBoxes(volume, drawing);

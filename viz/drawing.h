@@ -24,6 +24,7 @@ struct Drawing {
     std::vector<GridValues> grids;    // a cascade each
     FlatTriangles mesh;
     FlatLines lines, thickLines;
+    FlatLines signs{.points = {}, .colors = {}, .inFront = true};  // seen through all else: lights, cameras, where a plot is taken
     FlatPoints points;
     std::optional<ColorScale> scale;  // of the bar
     std::optional<Exposure> exposure; // of radiance

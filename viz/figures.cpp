@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "viz/series.h"
+
 namespace clv {
 namespace {
 
@@ -20,11 +22,12 @@ void showCubes(VizOptions& options) {
     options.view.wireframe = true;
 }
 
-// 3.3: which sides of the cells will give way quickly.
+// 3.3: which sides of the cells will give way quickly; in the first frame of a series nothing has moved yet.
 void showDynamicity(VizOptions& options) {
     options.view.subject = Subject::dynamicity;
     options.view.wireframe = true;
     options.view.range = {0.0, 1.0};
+    options.frame = kLastFrame;
 }
 
 // 4.1: what the first camera sees, under direct light alone and with indirect light.

@@ -14,6 +14,8 @@
 namespace clv {
 namespace {
 
+constexpr double kInFront = -66000.0;  // units of depth that bring lines before all else
+
 vtkNew<vtkPolyData> polyDataOf(std::span<const glm::vec3> positions) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToFloat();
@@ -88,6 +90,10 @@ vtkSmartPointer<vtkActor> actorOf(const FlatLines& lines) {
     data->GetCellData()->SetScalars(arrayOf(lines.colors));
     const auto actor = actorOf(data);
     actor->GetProperty()->SetLineWidth(lines.width);
+    if (lines.inFront) {
+        actor->GetMapper()->SetResolveCoincidentTopologyToPolygonOffset();
+        actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, kInFront);
+    }
     return actor;
 }
 

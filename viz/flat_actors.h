@@ -31,6 +31,7 @@ struct FlatLines {
     std::vector<glm::vec3> points;      // m
     std::vector<glm::u8vec3> colors;
     float width = 1.0f;                 // pixels
+    bool inFront = false;               // seen through what lies before them
 
     void add(const glm::vec3& from, const glm::vec3& to, const glm::u8vec3& color) {
         points.insert(points.end(), {from, to});

@@ -11,7 +11,9 @@
 #include "viz/compose.h"
 #include "viz/describe.h"
 #include "viz/keys.h"
+#include "viz/outlines.h"
 #include "viz/picture_file.h"
+#include "viz/status.h"
 
 namespace clv {
 namespace {
@@ -24,6 +26,12 @@ constexpr unsigned long kFrameTime = 100;  // ms, of a series that plays
 // A file's name, with its folder where the other file has the same name.
 std::string shownName(const std::filesystem::path& file, const std::filesystem::path& other) {
     return file.filename() != other.filename() ? file.filename() : file.parent_path().filename() / file.filename();
+}
+
+// Where planes across an axis cut the coarsest cascade, m, world space.
+std::pair<double, double> placesOf(const BakedVolume& volume, int axis) {
+    const Bounds bounds = boundsOf(volume.cascades.back().level.volume);
+    return {double(bounds.lo[axis]) + volume.anchor[axis], double(bounds.hi[axis]) + volume.anchor[axis]};
 }
 
 vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
@@ -49,7 +57,10 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
         canvases_.push_back(std::make_unique<Canvas>(*window_, double(k) / double(panes_.size()), double(k + 1) / double(panes_.size())));
         canvases_[k]->renderer().SetActiveCamera(camera_);
     }
-    frame_ = options.frame;
+    checkPlanes();
+    checkFrames();
+    for (const std::vector<double>& numbers : options.picks) marked_.push_back(typedPick(numbers, pane().volume()));
+    frame_ = std::min(options.frame, pane().series().frames() - 1);
     playing_ = options.play;
     composePanes();
     canvases_[0]->renderer().ResetCameraClippingRange();
@@ -59,12 +70,14 @@ void Inspector::startLive() {
     live_ = std::make_unique<LiveMode>(*panes_[0], options_.live, [this] { return viewCamera(); }, parallelFor_);
     for (int frame = 0; frame < options_.live.frames; ++frame) live_->frame();
     view_.lights = true;
+    // The grid over the scene is wider than the scene itself.
+    if (options_.live.settings.cascades == 0) placeCamera(options_.camera);
 }
 
 void Inspector::addTimeSlider() {
     const std::size_t frames = pane().series().frames();
     if (live_ || frames < 2) return;
-    const auto say = [this](double value) { return fmt::format("{} of {}, {:.3f} s", std::size_t(value), pane().series().frames(), pane().series().time(std::size_t(value))); };
+    const auto say = [this](double value) { return fmt::format("{} of {}, {:.3f} s", std::size_t(value) + 1, pane().series().frames(), pane().series().time(std::size_t(value))); };
     const auto change = [this](double value) {
         if (std::size_t(value) != frame_) loadFrame(std::size_t(value));
     };
@@ -85,7 +98,19 @@ float Inspector::aspect() const { return float(options_.width) / float(options_.
 
 void Inspector::checkCascade(const BakedVolume& volume) const {
     const std::size_t count = volume.cascades.size();
-    if (view_.filter.cascade.value_or(0) >= count) throw InputError(fmt::format("--cascade {}: expected a number below {}", *view_.filter.cascade, count));
+    if (view_.cascade.value_or(0) >= count) throw InputError(fmt::format("--cascade {}: expected a number below {}", *view_.cascade, count));
+}
+
+void Inspector::checkPlanes() const {
+    for (const SlicePlane& plane : view_.slices) {
+        const auto [lo, hi] = placesOf(pane().volume(), plane.axis);
+        if (plane.place < lo || plane.place > hi)
+            throw InputError(fmt::format("--slice {}={}: expected a place in the volume, from {:.4g} to {:.4g} m", "xyz"[plane.axis], plane.place, lo, hi));
+    }
+}
+
+void Inspector::checkFrames() const {
+    if (options_.play && pane().series().frames() < 2) throw InputError(fmt::format("--play: expected a series of frames, a .pvd, found {}", options_.file));
 }
 
 void Inspector::writePicture(const std::string& file) {
@@ -136,7 +161,7 @@ Drawing Inspector::drawingOf(std::size_t pane, const Drawing* beside) const {
     if (!options_.other.empty()) drawing.caption = fmt::format("{}: {}", shownName(shown.file(), panes_[1 - pane]->file()), drawing.caption);
     if (const std::size_t frames = shown.series().frames(); frames > 1) {
         const std::size_t frame = std::min(frame_, frames - 1);
-        drawing.caption += fmt::format("; frame {} of {}, {:.3f} s", frame, frames, shown.series().time(frame));
+        drawing.caption += fmt::format("; frame {} of {}, {:.3f} s", frame + 1, frames, shown.series().time(frame));
     }
     if (live_ && pane == 0) drawing.caption += fmt::format("\n{}", live_->times());
     return drawing;
@@ -157,6 +182,8 @@ void Inspector::composePanes() {
     const Drawing drawing = drawingOf(first, nullptr);
     canvases_[first]->show(drawing);
     if (panes_.size() > 1) canvases_[1 - first]->show(drawingOf(1 - first, &drawing));
+    if (options_.out.empty()) canvases_.back()->setStatus(statusOf(view_, pane().volume().cascades.size()));
+    showMarks();
     showPanels();
 }
 
@@ -167,6 +194,16 @@ void Inspector::showPanels() {
     }
 }
 
+void Inspector::showMarks() {
+    for (std::size_t k = 0; k < panes_.size(); ++k) {
+        FlatLines edges{.points = {}, .colors = {}, .width = 2.0f, .inFront = true};
+        for (const Pick& pick : marked_) {
+            if (const auto cell = pickedCell(panes_[k]->volume(), pick)) drawCellEdges(*cell, edges);
+        }
+        canvases_[k]->setMark(edges);
+    }
+}
+
 void Inspector::refresh() {
     try {
         composePanes();
@@ -174,6 +211,8 @@ void Inspector::refresh() {
         // A key asked for what this file cannot show.
         return say(error);
     }
+    // What is drawn may reach farther than before.
+    canvases_[0]->renderer().ResetCameraClippingRange();
     window_->Render();
 }
 
@@ -203,12 +242,22 @@ void Inspector::toggleHelp() {
 void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
     // Cascades that follow the view would lead it ever farther away.
-    const Bounds bounds = options_.live.on && scene ? scene->bounds : boundsOf(pane().volume().cascades.back().level.volume);
+    const std::vector<BakedCascade>& cascades = pane().volume().cascades;
+    const Bounds bounds = cascades.empty() || (options_.live.on && cascades.size() > 1) ? scene->bounds : boundsOf(cascades.back().level.volume);
     place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, pane().volume(), scene));
 }
 
 void Inspector::resetCamera() {
     placeCamera("");
+    canvases_[0]->renderer().ResetCameraClippingRange();
+    window_->Render();
+}
+
+void Inspector::nextCamera() {
+    const World* world = pane().world();
+    if (!world || world->scene().cameras.empty()) return say(InputError("expected a scene with a camera"));
+    const std::vector<Camera>& cameras = world->scene().cameras;
+    place(*camera_, poseOf(cameras[nextCamera_++ % cameras.size()]));
     canvases_[0]->renderer().ResetCameraClippingRange();
     window_->Render();
 }
@@ -290,7 +339,8 @@ vec3 Inspector::screenNormal() {
 void Inspector::drag(int x, int y) {
     if (live_ && live_->holdsLight()) return live_->dragLight(screenNormal(), sightAt(x, y, paneAt(x)));
     SlicePlane& plane = view_.slices[*grabbed_->slice];
-    plane.place = draggedPlace(grabbed_->position, plane.axis, sightAt(x, y, paneAt(x))) + pane().volume().anchor[plane.axis];
+    const auto [lo, hi] = placesOf(pane().volume(), plane.axis);
+    plane.place = std::clamp(draggedPlace(grabbed_->position, plane.axis, sightAt(x, y, paneAt(x))) + pane().volume().anchor[plane.axis], lo, hi);
     refresh();
 }
 
@@ -298,6 +348,9 @@ void Inspector::click(int x, int y) {
     const std::size_t pane = paneAt(x);
     pickedBefore_ = picked_;
     picked_ = pickAlong(panes_[pane]->volume(), panes_[pane]->world(), view_, sightAt(x, y, pane), parallelFor_);
+    marked_.clear();
+    if (picked_) marked_.push_back(*picked_);
+    showMarks();
     showPanels();
     if (picked_) printPick(panes_[pane]->volume(), *picked_, view_.lookup);
     window_->Render();

@@ -37,6 +37,7 @@ public:
     void togglePlane(int axis);
     void toggleHelp();
     void resetCamera();
+    void nextCamera();
     void showFrame(std::size_t frame);
     std::size_t frame() const { return frame_; }
     void togglePlaying();
@@ -46,6 +47,9 @@ public:
 
 private:
     void checkCascade(const BakedVolume& volume) const;
+    // Throws InputError for planes that cut no cell, and for frames to play where there is one.
+    void checkPlanes() const;
+    void checkFrames() const;
     // Pixels of the window, from its lower left corner.
     std::size_t paneAt(int x) const;
     Sight sightAt(int x, int y, std::size_t pane);
@@ -59,6 +63,7 @@ private:
     View viewOf(std::size_t pane, const Drawing* beside) const;
     void composePanes();
     void showPanels();
+    void showMarks();
     void tick();
     // Without moving the slider, which the mouse may hold.
     void loadFrame(std::size_t frame);
@@ -87,9 +92,11 @@ private:
     std::unique_ptr<LiveMode> live_;  // null: the light is that of the file
     std::unique_ptr<Slider> time_;    // null: there is one frame
     std::optional<Pick> picked_;    // the last click
+    std::vector<Pick> marked_;      // whose cells have their edges drawn
     std::optional<Pick> grabbed_;   // what the mouse drags
     std::size_t frame_ = 0;
     std::optional<Pick> pickedBefore_;  // the click before that
+    std::size_t nextCamera_ = 0;    // of the scene
     bool help_ = false, playing_ = false;
     std::string hint_;              // of the panel, where nothing else is
 };

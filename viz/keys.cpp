@@ -25,22 +25,33 @@ std::function<void(Inspector&)> toggling(bool View::*flag) {
 }
 
 void nextCascade(Inspector& inspector) {
-    std::optional<uint>& shown = inspector.view().filter.cascade;
+    std::optional<uint>& shown = inspector.view().cascade;
     const uint next = shown ? *shown + 1 : 0;
     shown = next < inspector.pane().volume().cascades.size() ? std::optional(next) : std::nullopt;
     inspector.refresh();
 }
 
 void nextCarrier(View& view) {
-    view.carrier = Carrier((int(carrierOf(view)) + 1) % (view.subject == Subject::error ? 4 : 3));
+    int next = int(carrierOf(view)) + 1;
+    if (Carrier(next) == Carrier::slices && view.slices.empty()) ++next;
+    view.carrier = Carrier(next % (view.subject == Subject::error ? 4 : 3));
+}
+
+// Steps: all cells, those with any light, then in powers of two.
+void raiseThreshold(View& view) {
+    view.threshold = view.threshold < kAnyLight ? kAnyLight : std::max(kFirstThreshold, view.threshold * kThresholdFactor);
+}
+
+void lowerThreshold(View& view) {
+    view.threshold = view.threshold > kFirstThreshold ? view.threshold / kThresholdFactor : view.threshold > kAnyLight ? kAnyLight : 0.0f;
 }
 
 std::vector<Key> makeKeys() {
     std::vector<Key> keys;
     keys.push_back({"h", "h", "this help", [](Inspector& i) { i.toggleHelp(); }});
+    static constexpr const char* kSubjectKeys[kSubjects] = {"1", "2", "3", "4", "5", "6", "n", "7", "8", "9", "0"};
     for (int k = 0; k < kSubjects; ++k) {
-        const std::string digit = std::to_string((k + 1) % 10);
-        keys.push_back({digit, digit, nameOf(Subject(k)), changing([k](View& view) { view.subject = Subject(k); })});
+        keys.push_back({kSubjectKeys[k], kSubjectKeys[k], nameOf(Subject(k)), changing([k](View& view) { view.subject = Subject(k); })});
     }
     keys.push_back({"o", "o", "quantities on cells, slices, as a volume; the error on surfaces, too", changing(nextCarrier)});
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,8 +59,8 @@ std::vector<Key> makeKeys() {
         keys.push_back({name, name, "slicing plane across " + name + ", on and off", [axis](Inspector& i) { i.togglePlane(axis); }});
     }
     keys.push_back({"c", "c", "each cascade alone, then all", nextCascade});
-    keys.push_back({"Up", "up", "threshold higher: fewer cells", changing([](View& view) { view.filter.threshold = std::max(kFirstThreshold, view.filter.threshold * kThresholdFactor); })});
-    keys.push_back({"Down", "down", "threshold lower", changing([](View& view) { view.filter.threshold = view.filter.threshold > kFirstThreshold ? view.filter.threshold / kThresholdFactor : 0.0f; })});
+    keys.push_back({"Up", "up", "threshold higher: fewer cubes", changing(raiseThreshold)});
+    keys.push_back({"Down", "down", "threshold lower, in the end all cells", changing(lowerThreshold)});
     keys.push_back({"plus", "+", "brighter", changing([](View& view) { view.exposure += kExposureStep; })});
     keys.push_back({"minus", "-", "darker", changing([](View& view) { view.exposure -= kExposureStep; })});
     keys.push_back({"m", "m", "surfaces beside the view", toggling(&View::mesh)});
@@ -71,6 +82,7 @@ std::vector<Key> makeKeys() {
     keys.push_back({"Home", "home", "first frame", [](Inspector& i) { i.showFrame(0); }});
     keys.push_back({"End", "end", "last frame", [](Inspector& i) { i.showFrame(i.pane().series().frames()); }});
     keys.push_back({"u", "u", "live: cascades follow the view, or stay", [](Inspector& i) { i.toggleFollowing(); }});
+    keys.push_back({"s", "s", "through the scene's cameras, one after the other", [](Inspector& i) { i.nextCamera(); }});
     keys.push_back({"r", "r", "the whole volume from outside", [](Inspector& i) { i.resetCamera(); }});
     keys.push_back({"q", "q", "quit", [](Inspector& i) { i.close(); }});
     return keys;

@@ -82,9 +82,13 @@ void LiveMode::frame() {
 }
 
 std::string LiveMode::times() const {
-    std::string text = "live, ms:";
-    for (const auto& [name, seconds] : light_->stages()) text += fmt::format(" {} {:.1f}", name, 1e3 * seconds);
-    return text;
+    std::string text;
+    double sum = 0.0;
+    for (const auto& [name, seconds] : light_->stages()) {
+        text += fmt::format(" {} {:.1f}", name, 1e3 * seconds);
+        sum += seconds;
+    }
+    return fmt::format("live, frame {}, {:.1f} ms:{}", pane_.volume().frame, 1e3 * sum, text);
 }
 
 bool LiveMode::grabLight(const Sight& sight) {

@@ -22,6 +22,8 @@ public:
     void OnLeftButtonUp() override;
     void OnMouseMove() override;
     void OnKeyPress() override;
+    // About the vertical: VTK's own way tips the horizon.
+    void Rotate() override;
     // VTK's own keys do other things.
     void OnChar() override {}
 

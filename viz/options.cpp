@@ -72,8 +72,10 @@ void addWhat(CLI::App& app, VizOptions& options) {
            },
            "Planes across the axes, m: x=0.5 z=1.2")
         ->take_all();
-    app.add_option_function<uint>("--cascade", [&view](uint cascade) { view.filter.cascade = cascade; }, "Show the cells of this cascade alone, from 0, the finest");
-    app.add_option("--threshold", view.filter.threshold, "Leave out cells none of whose sides receives more, W/m^2")->check(finiteNumber(-1.0, std::numeric_limits<float>::max(), "an irradiance"));
+    app.add_option_function<uint>("--cascade", [&view](uint cascade) { view.cascade = cascade; }, "Show the cells of this cascade alone, from 0, the finest");
+    app.add_option("--threshold", view.threshold, "Leave out cubes none of whose sides receives as much, W/m^2; 0: none")
+        ->check(finiteNumber(-std::numeric_limits<double>::min(), std::numeric_limits<float>::max(), "an irradiance, 0 or more"))
+        ->default_str("any light");
     app.add_option_function<std::array<double, 2>>("--range", [&view](const std::array<double, 2>& range) {
         if (!(range[0] < range[1])) throw InputError(fmt::format("--range: expected a smaller number and a larger one, found {},{}", range[0], range[1]));
         view.range = {range[0], range[1]};
@@ -103,6 +105,24 @@ void addBeside(CLI::App& app, View& view) {
     addCountOption(app, "--error-samples", view.errorSamples, "Paths a point, or a side of a cell, where errors are shown");
 }
 
+bool mesh(const VizOptions& options) { return options.view.subject == Subject::mesh || options.view.mesh; }
+
+// What of the view would do nothing.
+void checkView(const VizOptions& options) {
+    const View& view = options.view;
+    const std::string name = nameOf(view.subject);
+    if (view.carrier == Carrier::surfaces && view.subject != Subject::error) throw InputError("--on surfaces: expected --view error; --view mesh shows the irradiance there");
+    if (!quantityOf(view.subject) && view.subject != Subject::error) {
+        if (view.carrier) throw InputError(fmt::format("--on: expected --view irradiance, another quantity or error, not {}", name));
+        if (!view.slices.empty()) throw InputError(fmt::format("--slice: expected --view irradiance, another quantity or error, not {}", name));
+    }
+    if (!view.slices.empty() && carrierOf(view) != Carrier::slices) throw InputError("--slice: expected it without --on, or with --on slices");
+    if (view.slices.empty() && carrierOf(view) == Carrier::slices) throw InputError("--on slices: expected --slice, which says where");
+    if (options.difference && !quantityOf(view.subject) && view.subject != Subject::cubes)
+        throw InputError(fmt::format("--difference: expected --view irradiance or another quantity, not {}", name));
+    if (view.histogram && view.probe) throw InputError("--histogram: expected it without --probe: there is room for one plot");
+}
+
 }  // namespace
 
 void addVizOptions(CLI::App& app, VizOptions& options) {
@@ -110,7 +130,7 @@ void addVizOptions(CLI::App& app, VizOptions& options) {
     addLiveOptions(app, options.live);
     auto* other = app.add_option("other", options.other, "A second one, shown beside the first with the same camera");
     app.add_flag("--difference", options.difference, "Show how the first differs from the second, in place of the second")->needs(other);
-    app.add_flag("--without", options.without, "Show the view without indirect light on its left")->excludes(other);
+    app.add_flag("--without", options.without, "Show surfaces without indirect light on the left of --view mesh --direct")->excludes(other);
     app.add_flag("--truth", options.truth, "Show cubes, irradiance or mesh by path tracing on its right")->excludes(other);
     addFigureOption(app, options);
     app.add_option("--scene", options.scene, "The scene of the volume, where its file has moved");
@@ -127,18 +147,23 @@ void addVizOptions(CLI::App& app, VizOptions& options) {
         ->take_all();
     app.add_option("--out", options.out, "Write a picture (PNG) in place of opening a window; needs no display");
     app.add_flag("--benchmark", options.benchmark, "Print how fast the volume opens and turns, and its memory, in place of opening a window");
-    app.add_option("--frame", options.frame, "Of a series: the frame that is shown first, from 0");
+    app.add_option("--frame", options.frame, "Of a series: the frame that is shown first; 0 is that which captions call 1");
     app.add_flag("--play", options.play, "Of a series: play it in the window");
     app.add_option("--threads", options.threads, "Threads to use; 0: all of the machine's")->check(CLI::Range(0, kMostThreads))->capture_default_str();
 }
 
 void check(const VizOptions& options) {
+    checkView(options);
     const LiveOptions& live = options.live;
     if (options.file.empty() && !(live.on && !options.scene.empty())) throw InputError("expected the file of a volume, or --live with --scene; see --help");
     if (live.on && (!options.other.empty() || options.without || options.truth)) throw InputError("--live: expected one volume, without another beside it");
     if (options.without && options.truth) throw InputError("--without: expected it without --truth: there is room for one view beside this one");
-    if (options.view.carrier == Carrier::surfaces && options.view.subject != Subject::error)
-        throw InputError("--on surfaces: expected --view error; --view mesh shows the irradiance there");
+    if (options.without && !(mesh(options) && options.view.direct)) throw InputError("--without: expected --view mesh, or --mesh, and --direct, which it leaves alone");
+    if (options.play && live.on) throw InputError("--play: expected a series of frames, without --live");
+    if (options.out.empty()) return;
+    if (!options.out.ends_with(".png")) throw InputError(fmt::format("--out {}: expected a name that ends in .png", options.out));
+    if (options.play) throw InputError("--play: expected a window, without --out; --frame chooses the frame of a picture");
+    if (options.benchmark) throw InputError("--benchmark: expected it without --out");
 }
 
 }  // namespace clv

@@ -25,7 +25,7 @@ struct VizOptions {
     std::string out;         // picture to write in place of opening a window, or empty
     LiveOptions live;        // compute the light here, frame by frame
     bool benchmark = false;  // say how fast it opens and turns, in place of opening a window
-    std::size_t frame = 0;   // of a series, from 0
+    std::size_t frame = 0;   // of a series, from 0; or kLastFrame
     bool play = false;       // the frames of a series, one after the other
     int threads = 0;         // 0: all of the machine's
 };

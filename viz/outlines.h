@@ -7,6 +7,8 @@ namespace clv {
 
 // A box around each cascade, in a colour of its own.
 void drawBoxes(const BakedVolume& volume, Drawing& drawing);
+// The edges of a cell.
+void drawCellEdges(const ShownCell& cell, FlatLines& lines);
 // Of the camera that the cascades stand around, else of the scene's first one; `scene` may be null. Throws InputError where there is none.
 void drawFrustum(const BakedVolume& volume, const Scene* scene, Drawing& drawing);
 // A cross at each lamp, and the way that the light goes; of a directional light, at the middle of the volume.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viz/cell_values.h"
+
 namespace clv {
 namespace {
 
@@ -29,7 +31,7 @@ struct Nearest {
 };
 
 void offerCells(const BakedVolume& volume, const View& view, const Sight& sight, const ParallelFor& parallelFor, Nearest& nearest) {
-    for (const ShownCell& cell : shownCells(volume, view.filter, parallelFor)) {
+    for (const ShownCell& cell : cellsOf(volume, view, parallelFor)) {
         nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), {cell.center, {}, {}});
     }
 }
@@ -40,7 +42,7 @@ void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight
         const float distance = (float(view.slices[k].place - volume.anchor[axis]) - sight.origin[axis]) / sight.direction[axis];
         if (!(distance > 0.0f)) continue;
         const vec3 position = sight.origin + distance * sight.direction;
-        if (cellAt(volume, position, view.filter)) nearest.offer(distance, {position, {}, k});
+        if (cellAt(volume, position, view.cascade)) nearest.offer(distance, {position, {}, k});
     }
 }
 
@@ -56,16 +58,29 @@ void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& n
 
 }  // namespace
 
+Pick typedPick(const std::vector<double>& n, const BakedVolume& volume) {
+    Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
+    if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
+    return pick;
+}
+
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor) {
     Nearest nearest;
     const Carrier carrier = carrierOf(view);
     const bool error = view.subject == Subject::error, quantity = error || quantityOf(view.subject);
     const bool surfaces = view.mesh || view.subject == Subject::mesh || (error && carrier == Carrier::surfaces);
     if (quantity && carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
-    if (view.subject == Subject::cubes || (quantity && carrier == Carrier::cells)) offerCells(volume, view, sight, parallelFor, nearest);
-    if (world && (surfaces || !nearest.pick)) offerSurface(*world, view.backs, sight, nearest);
+    if (showsCubes(view)) offerCells(volume, view, sight, parallelFor, nearest);
+    if (world && surfaces) offerSurface(*world, view.backs, sight, nearest);
     return nearest.pick;
 }
+
+vec3 placeInCell(const BakedVolume& volume, const Pick& pick) {
+    const float ahead = kClvSideOffset * volume.cascades.front().level.volume.cellSize;
+    return pick.position + ahead * pick.normal.value_or(vec3(0.0f));
+}
+
+std::optional<ShownCell> pickedCell(const BakedVolume& volume, const Pick& pick) { return cellAt(volume, placeInCell(volume, pick), {}); }
 
 float draggedPlace(const vec3& grabbed, int axis, const Sight& sight) {
     vec3 along(0.0f);

@@ -20,8 +20,16 @@ struct Pick {
     std::optional<std::size_t> slice;  // index of the plane that was hit
 };
 
-// The nearest of what the view shows: a cell's cube, a slice, a surface. Where nothing is met, the first surface. `world` may be null.
+// x,y,z or x,y,z,nx,ny,nz, world space.
+Pick typedPick(const std::vector<double>& numbers, const BakedVolume& volume);
+
+// The nearest of what the view shows: a cell's cube, a slice, a surface. `world` may be null.
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor);
+
+// The cell that a pick is of; on a surface the one in front of it, not the one behind.
+std::optional<ShownCell> pickedCell(const BakedVolume& volume, const Pick& pick);
+// The place in that cell that was picked, m.
+vec3 placeInCell(const BakedVolume& volume, const Pick& pick);
 
 // Where a plane across `axis` through `grabbed` goes so that it stays under the mouse, m, relative to the anchor: the point of the axis
 // through `grabbed` that is nearest to the line of sight. Stays where it is for a line of sight along the axis.

@@ -13,9 +13,10 @@ struct Plot {
     bool bars = false;              // else a line
 };
 
-// The quantity of the cells that a line from `from` to `to` (m, relative to the anchor) passes, over the distance from its start, m.
-Plot probe(const BakedVolume& volume, Quantity quantity, const CellFilter& filter, const vec3& from, const vec3& to);
+// The quantity of the cells that a line from `from` to `to` (m, relative to the anchor) passes, over the distance from its start, m;
+// not a number where no cell is open.
+Plot probe(const BakedVolume& volume, Quantity quantity, ShownCascade only, const vec3& from, const vec3& to);
 // How many of the cells that are shown have which value: bars over the range of the values.
-Plot histogram(const BakedVolume& volume, Quantity quantity, const CellFilter& filter, const ParallelFor& parallelFor);
+Plot histogram(const BakedVolume& volume, Quantity quantity, ShownCascade only, const ParallelFor& parallelFor);
 
 }  // namespace clv

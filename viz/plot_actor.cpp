@@ -1,6 +1,7 @@
 #include "viz/plot_actor.h"
 
 #include <vtkAxis.h>
+#include <vtkBlockItem.h>
 #include <vtkBrush.h>
 #include <vtkChartXY.h>
 #include <vtkContextScene.h>
@@ -14,7 +15,8 @@
 namespace clv {
 namespace {
 
-constexpr float kShare = 0.38f, kPlotBarRoom = 0.16f;  // of the part of the window: the inset, and the colour bar right of it
+// Of the part of the window: the inset, what stays free below it for the status, and the colour bar right of it.
+constexpr float kShare = 0.38f, kPlotBottom = 0.05f, kPlotBarRoom = 0.21f;
 constexpr int kPlotTextSize = 11;
 
 void setPlotText(vtkTextProperty& text) {
@@ -51,10 +53,16 @@ vtkSmartPointer<vtkContextActor> actorOf(const Plot& plot, int width, int height
     setPlotText(*chart->GetTitleProperties());
     setAxis(*chart->GetAxis(vtkAxis::BOTTOM), plot.xTitle);
     setAxis(*chart->GetAxis(vtkAxis::LEFT), plot.yTitle);
-    chart->GetBackgroundBrush()->SetColorF(0.05, 0.05, 0.06, 0.85);
     chart->SetAutoSize(false);
-    chart->SetSize(vtkRectf((1.0f - kShare - kPlotBarRoom) * float(width), 0.02f * float(height), kShare * float(width), kShare * float(height)));
+    const vtkRectf place((1.0f - kShare - kPlotBarRoom) * float(width), kPlotBottom * float(height), kShare * float(width), kShare * float(height));
+    chart->SetSize(place);
+    // A chart's own background begins at the corner of the axes.
+    vtkNew<vtkBlockItem> backing;
+    backing->SetDimensions(place.GetData());
+    backing->GetBrush()->SetColorF(0.05, 0.05, 0.06, 0.85);
+    backing->GetPen()->SetLineType(vtkPen::NO_PEN);
     auto actor = vtkSmartPointer<vtkContextActor>::New();
+    actor->GetScene()->AddItem(backing);
     actor->GetScene()->AddItem(chart);
     return actor;
 }

@@ -42,11 +42,7 @@ BakedVolume volumeOf(const VizOptions& options) {
 
 void printPicks(const VizOptions& options) {
     const BakedVolume volume = volumeOf(options);
-    for (const std::vector<double>& n : options.picks) {
-        Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
-        if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
-        printPick(volume, pick, options.view.lookup);
-    }
+    for (const std::vector<double>& numbers : options.picks) printPick(volume, typedPick(numbers, volume), options.view.lookup);
 }
 
 void run(const VizOptions& options) {

@@ -18,6 +18,7 @@ Series::Series(const std::string& file) {
 }
 
 BakedVolume Series::load(std::size_t frame) const {
+    if (frame == kLastFrame) frame = frames() - 1;
     if (frame >= frames()) throw InputError(fmt::format("--frame {}: expected a number below {}", frame, frames()));
     return readVolume(steps_[frame].vtm);
 }

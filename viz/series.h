@@ -1,12 +1,15 @@
 // The frames of a file: one of a .vtm, many of a .pvd.
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "bindings/volume_file/volume_file.h"
 
 namespace clv {
+
+inline constexpr std::size_t kLastFrame = std::numeric_limits<std::size_t>::max();
 
 class Series {
 public:
@@ -17,7 +20,7 @@ public:
 
     std::size_t frames() const { return steps_.size(); }
     double time(std::size_t frame) const { return steps_[frame].time; }  // s
-    // Throws InputError.
+    // From 0, or kLastFrame. Throws InputError.
     BakedVolume load(std::size_t frame) const;
 
 private:

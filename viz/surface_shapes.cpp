@@ -9,6 +9,7 @@
 #include "bindings/embree/path_tracer.h"
 #include "clv/math/constants.h"
 #include "viz/scene_mesh.h"
+#include "viz/truth_error.h"
 
 namespace clv {
 namespace {
@@ -39,16 +40,26 @@ FlatTriangles shapeOf(const SceneMesh& mesh) {
     return shape;
 }
 
-// W/m^2 by path tracing, without direct light.
-std::vector<vec3> pathTraced(const BakedVolume& volume, const World& world, const SceneMesh& mesh, std::uint64_t samples, const ParallelFor& parallelFor) {
+// Without direct light.
+std::vector<ReferenceResult> pathTraced(const BakedVolume& volume, const World& world, const SceneMesh& mesh, std::uint64_t samples, const ParallelFor& parallelFor) {
     std::vector<ReferencePoint> points;
     for (const ClvReceiver& receiver : mesh.receivers) points.push_back({receiver.position, receiver.normal});
     std::vector<ReferenceResult> results(points.size());
     Progress progress("path tracing surfaces");
     referenceIrradiance(world.embree(), points, {.allBounces = volume.allBounces, .samplesPerPoint = samples}, Progress::watch(parallelFor, [&](double share) { progress.update(share); }), results);
-    std::vector<vec3> truth;
-    for (const ReferenceResult& result : results) truth.push_back(result.irradiance);
-    return truth;
+    return results;
+}
+
+std::vector<vec3> irradianceOf(const std::vector<ReferenceResult>& results) {
+    std::vector<vec3> irradiance;
+    for (const ReferenceResult& result : results) irradiance.push_back(result.irradiance);
+    return irradiance;
+}
+
+std::vector<float> standardErrorOf(const std::vector<ReferenceResult>& results) {
+    std::vector<float> errors;
+    for (const ReferenceResult& result : results) errors.push_back(glm::length(result.standardError));
+    return errors;
 }
 
 // Colours of fluxes on the screen, brighter for more.
@@ -63,14 +74,14 @@ std::vector<glm::u8vec3> fluxColors(const std::vector<vec3>& flux, const Exposur
 void drawMesh(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     const SceneMesh mesh = meshOf(world.scene(), view.truth ? kErrorParts : kMeshParts, view.backs);
     const std::vector<vec3> indirect = !view.indirect ? std::vector<vec3>(mesh.points.size(), vec3(0.0f))
-                                       : view.truth ? pathTraced(volume, world, mesh, view.errorSamples, parallelFor)
+                                       : view.truth ? irradianceOf(pathTraced(volume, world, mesh, view.errorSamples, parallelFor))
                                                     : readVolume(volume, mesh, view.lookup, parallelFor);
     const std::vector<vec3> radiance = perVertex(mesh, parallelFor, [&](std::size_t i) {
         const ClvReceiver& receiver = mesh.receivers[i];
         const vec3 direct = view.direct ? directIrradiance(world.embree(), receiver.position, receiver.normal) : vec3(0.0f);
         return mesh.albedo[i] * (indirect[i] + direct) / kClvPi;
     });
-    if (view.subject == Subject::mesh) drawing.caption = fmt::format("radiance of the surfaces under {}", view.indirect ? view.direct ? "direct and indirect light" : "indirect light" : view.direct ? "direct light" : "no light");
+    if (view.subject == Subject::mesh) drawing.caption = fmt::format("{}radiance of the surfaces under {}", view.truth ? "path tracing: " : "", view.indirect ? view.direct ? "direct and indirect light" : "indirect light" : view.direct ? "direct light" : "no light");
     drawing.mesh = shapeOf(mesh);
     drawing.exposure = view.fixedExposure.value_or(exposureFor(radiance, view.exposure));
     drawing.mesh.colors = fluxColors(radiance, *drawing.exposure);
@@ -79,8 +90,10 @@ void drawMesh(const BakedVolume& volume, const World& world, const View& view, c
 void drawError(const BakedVolume& volume, const World& world, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     const SceneMesh mesh = meshOf(world.scene(), kErrorParts, view.backs);
     const std::vector<vec3> estimate = readVolume(volume, mesh, view.lookup, parallelFor);
-    const std::vector<float> errors = pointErrors(estimate, pathTraced(volume, world, mesh, view.errorSamples, parallelFor));
-    drawing.caption = "error of the volume at surfaces, as a share of the path-traced irradiance";
+    const std::vector<ReferenceResult> reference = pathTraced(volume, world, mesh, view.errorSamples, parallelFor);
+    const std::vector<vec3> truth = irradianceOf(reference);
+    const std::vector<float> errors = pointErrors(estimate, truth);
+    drawing.caption = fmt::format("error of the volume at surfaces against path tracing, itself known to {:.1f} %", 100.0 * medianError(standardErrorOf(reference), truth));
     drawing.scale = scaleFor("error / truth", errors);
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
     drawing.mesh = shapeOf(mesh);
@@ -93,7 +106,7 @@ void drawRays(const World& world, const View& view, const ParallelFor& parallelF
     for (const ClvRay& ray : rays) flux.push_back(ray.flux);
     std::vector<glm::u8vec3> colors = fluxColors(flux, exposureFor(flux, view.exposure));
     if (view.rayColor == RayColor::dynamicity) {
-        drawing.scale = ColorScale{"dynamicity", 0.0, 1.0};
+        drawing.scale = ColorScale{.title = "dynamicity"};
         for (std::size_t i = 0; i < rays.size(); ++i) colors[i] = drawing.scale->color(rays[i].dynamicity);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) drawing.lines.add(rays[i].origin, rays[i].origin + rays[i].maxDistance * rays[i].direction, colors[i]);

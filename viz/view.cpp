@@ -6,7 +6,7 @@
 namespace clv {
 namespace {
 
-constexpr const char* kNames[kSubjects] = {"cubes", "irradiance", "dynamicity", "samples", "variance", "open", "error", "mesh", "rays", "texels"};
+constexpr const char* kNames[kSubjects] = {"cubes", "irradiance", "dynamicity", "samples", "variance", "open", "noise", "error", "mesh", "rays", "texels"};
 
 }  // namespace
 
@@ -22,6 +22,10 @@ Carrier carrierOf(const View& view) {
     const bool error = view.subject == Subject::error;
     if (view.carrier && (error || view.carrier != Carrier::surfaces)) return *view.carrier;
     return !view.slices.empty() ? Carrier::slices : error ? Carrier::surfaces : Carrier::cells;
+}
+
+bool showsCubes(const View& view) {
+    return view.subject == Subject::cubes || ((quantityOf(view.subject) || view.subject == Subject::error) && carrierOf(view) == Carrier::cells);
 }
 
 std::optional<Quantity> quantityOf(Subject subject) {

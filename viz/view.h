@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,8 +14,8 @@
 
 namespace clv {
 
-enum class Subject { cubes, irradiance, dynamicity, samples, variance, open, error, mesh, rays, texels };
-inline constexpr int kSubjects = 10;
+enum class Subject { cubes, irradiance, dynamicity, samples, variance, open, noise, error, mesh, rays, texels };
+inline constexpr int kSubjects = 11;
 // Name on the command line; the subjects between cubes and error are the quantities, in their order.
 std::string nameOf(Subject subject);
 Subject subjectOf(const std::string& name);
@@ -31,11 +32,15 @@ struct SlicePlane {
 
 enum class RayColor { flux, dynamicity };
 
+// W/m^2: the threshold of cells that receive any light.
+inline constexpr float kAnyLight = std::numeric_limits<float>::min();
+
 struct View {
     Subject subject = Subject::cubes;
     std::optional<Carrier> carrier;        // none: follows from the rest
     std::vector<SlicePlane> slices;
-    CellFilter filter;
+    ShownCascade cascade;
+    float threshold = kAnyLight;           // W/m^2: cubes none of whose sides receives as much are left out; 0: none is
     std::optional<glm::dvec2> range;       // of the colours; none: follows from the values
     bool mesh = false, wireframe = false;  // of the scene, beside the subject
     bool indirect = true, direct = false;  // light that the mesh shows
@@ -55,5 +60,7 @@ struct View {
 
 // Slices where there are any, surfaces for the error, else cells, unless the view says what.
 Carrier carrierOf(const View& view);
+// Whether cells are drawn as cubes.
+bool showsCubes(const View& view);
 
 }  // namespace clv

@@ -18,7 +18,8 @@ namespace {
 
 // Steps of the scale; step 0 is a cell that is not shown.
 constexpr double kSteps = 1024.0;
-constexpr double kDensest = 0.25;  // opacity of the densest cell, a cell deep
+constexpr double kDensest = 0.25;     // opacity of the densest cell, a cell deep
+constexpr float kSampleShare = 0.5f;  // of a cell, between samples along a line of sight
 
 }  // namespace
 
@@ -49,6 +50,9 @@ vtkSmartPointer<vtkProp> volumeOf(const GridValues& grid, const ColorScale& scal
     opacity->AddPoint(0.0, 0.0);
     vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
     mapper->SetInputData(image);
+    // Left to itself VTK takes samples 1 m apart at rest and 2 m while the view turns, and trades them for time. The time may cost pixels.
+    mapper->SetSampleDistance(kSampleShare * g.cellSize);
+    mapper->SetInteractiveSampleDistance(kSampleShare * g.cellSize);
     auto volume = vtkSmartPointer<vtkVolume>::New();
     volume->SetMapper(mapper);
     volume->GetProperty()->SetColor(color);

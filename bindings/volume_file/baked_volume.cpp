@@ -16,6 +16,33 @@ vec3 irradianceOf(const BakedVolume& volume, const BakedCascade& cascade, ClvRec
     return sum / float(cascade.estimates.size());
 }
 
+CellLight lightOf(const BakedVolume& volume, const BakedCascade& cascade, const CellSlots& slots) {
+    CellLight light;
+    light.slots = slots.count;
+    light.samples = cascade.samples[slots.first];
+    SlotWeights weights;
+    for (uint slot = slots.first; slot < slots.first + slots.count; ++slot) {
+        weights.slot[weights.count++] = slot;
+        light.openVolume += cascade.level.slots[slot].openVolume;
+        light.samples = std::min(light.samples, cascade.samples[slot]);
+        for (std::size_t side = 0; side < kSides && !cascade.dynamicity.empty(); ++side) {
+            light.dynamicity[side] = std::max(light.dynamicity[side], cascade.dynamicity[slot * kSides + side]);
+        }
+    }
+    std::fill_n(weights.weight.begin(), weights.count, 1.0f / light.openVolume);
+    for (std::size_t side = 0; side < kSides; ++side) {
+        const ClvCoefficients read = volume.layout.read(sideNormal(side));
+        std::array<vec3, 2> estimate{};
+        for (std::size_t i = 0; i < cascade.estimates.size(); ++i) estimate[i] = readIrradiance(volume.layout, cascade.estimates[i], weights, read);
+        light.irradiance[side] = estimate[0];
+        if (cascade.estimates.size() < 2) continue;
+        const vec3 half = 0.5f * (estimate[0] - estimate[1]);
+        light.irradiance[side] = 0.5f * (estimate[0] + estimate[1]);
+        light.variance[side] = std::min(dot(half, half) / 3.0f, std::numeric_limits<float>::max());
+    }
+    return light;
+}
+
 }  // namespace
 
 SceneMark markOf(const Scene& scene) {
@@ -56,33 +83,12 @@ vec3 sideNormal(std::size_t side) {
 }
 
 CellLight cellLight(const BakedVolume& volume, const BakedCascade& cascade, std::size_t cell) {
-    CellLight light;
     const uint entry = cascade.level.table[cell];
-    if (entry == kClvNoSlot) return light;
-    const CellSlots slots = slotsOfCell(cascade.level, entry);
-    light.slots = slots.count;
-    light.samples = cascade.samples[slots.first];
-    SlotWeights weights;
-    for (uint slot = slots.first; slot < slots.first + slots.count; ++slot) {
-        weights.slot[weights.count++] = slot;
-        light.openVolume += cascade.level.slots[slot].openVolume;
-        light.samples = std::min(light.samples, cascade.samples[slot]);
-        for (std::size_t side = 0; side < kSides && !cascade.dynamicity.empty(); ++side) {
-            light.dynamicity[side] = std::max(light.dynamicity[side], cascade.dynamicity[slot * kSides + side]);
-        }
-    }
-    std::fill_n(weights.weight.begin(), weights.count, 1.0f / light.openVolume);
-    for (std::size_t side = 0; side < kSides; ++side) {
-        const ClvCoefficients read = volume.layout.read(sideNormal(side));
-        std::array<vec3, 2> estimate{};
-        for (std::size_t i = 0; i < cascade.estimates.size(); ++i) estimate[i] = readIrradiance(volume.layout, cascade.estimates[i], weights, read);
-        light.irradiance[side] = estimate[0];
-        if (cascade.estimates.size() < 2) continue;
-        const vec3 half = 0.5f * (estimate[0] - estimate[1]);
-        light.irradiance[side] = 0.5f * (estimate[0] + estimate[1]);
-        light.variance[side] = std::min(dot(half, half) / 3.0f, std::numeric_limits<float>::max());
-    }
-    return light;
+    return entry == kClvNoSlot ? CellLight{} : lightOf(volume, cascade, slotsOfCell(cascade.level, entry));
+}
+
+CellLight regionLight(const BakedVolume& volume, const BakedCascade& cascade, uint slot) {
+    return lightOf(volume, cascade, {slot, 1});
 }
 
 }  // namespace clv

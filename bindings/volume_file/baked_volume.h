@@ -66,5 +66,7 @@ struct CellLight {
     uint slots = 0;                         // open regions; 0: solid, and all else is 0
 };
 CellLight cellLight(const BakedVolume& volume, const BakedCascade& cascade, std::size_t cell);
+// The same of one of its regions.
+CellLight regionLight(const BakedVolume& volume, const BakedCascade& cascade, uint slot);
 
 }  // namespace clv

@@ -6,6 +6,7 @@
 #include "bindings/embree/task_pool.h"
 #include "viz/baked_scene.h"
 #include "viz/cell_errors.h"
+#include "viz/truth_error.h"
 
 using namespace clv;
 using namespace clv::test;
@@ -61,6 +62,13 @@ TEST(CellTruth, isKeptUntilTheQuestionIsAnother) {
     truths.clear();
     truths.of(cells, embree, {.samples = 64}, counting);
     EXPECT_EQ(asked, 3);
+}
+
+TEST(MedianError, isOfPointsThatReceiveLight) {
+    const std::vector<vec3> truth{vec3(0.0f), vec3(3.0f, 0.0f, 0.0f), vec3(0.0f), vec3(0.0f), vec3(4.0f, 0.0f, 0.0f)};
+    const std::vector<float> errors{0.0f, 0.3f, 0.0f, 0.0f, 0.4f};
+    EXPECT_NEAR(medianError(errors, truth), 0.1, 1e-6);
+    EXPECT_EQ(medianError({}, {}), 0.0);
 }
 
 struct ErrorView {

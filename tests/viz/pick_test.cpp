@@ -1,6 +1,8 @@
 // Picking by numbers.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "clv/cpu/parallel.h"
 #include "support/hall_volume.h"
 #include "viz/describe.h"
@@ -57,6 +59,62 @@ TEST(Pick, aSurfaceIsMetOnTheSideThatShows) {
     ASSERT_TRUE(pick->normal);
     EXPECT_NEAR(pick->normal->y, 1.0f, 1e-5f);
     EXPECT_LT(pick->position.y, scene.bounds.hi.y - 0.1f * out.y);
+    view.subject = Subject::samples;
+    view.carrier = Carrier::slices;
+    EXPECT_FALSE(pickAlong(volume, &world, view, {middle + vec3(0.0f, 3.0f * out.y, 0.0f), vec3(0.0f, -1.0f, 0.0f)}, serialFor())) << "no surface is drawn";
+}
+
+// What follows a word, up to the end of its line.
+std::vector<std::string> linesAfter(const std::string& text, const std::string& word) {
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) lines.push_back(text.substr(at + word.size(), text.find('\n', at + word.size()) - at - word.size()));
+    return lines;
+}
+
+TEST(Describe, aCutCellRegionByRegionAndWhichOneWasPicked) {
+    const BakedVolume volume = hallVolume();
+    const auto cells = shownCells(volume, {}, serialFor());
+    const auto cut = std::ranges::find_if(cells, [](const ShownCell& cell) { return cell.light.slots == 2; });
+    ASSERT_NE(cut, cells.end());
+    const BakedCascade& cascade = volume.cascades[cut->cascade];
+    const uint entry = cascade.level.table[clvCellIndex(cascade.level.volume, cut->cell)];
+    const CellSlots slots = slotsOfCell(cascade.level, entry);
+    for (uint i = 0; i < 2; ++i) {
+        const vec3 place = cascade.level.slots[slots.first + i].openCentroid;
+        if (slotAtPosition(cascade.level, entry, place) != slots.first + i) continue;
+        const std::string text = describe(volume, {place, {}, {}}, {});
+        const auto regions = linesAfter(text, "\nregion "), up = linesAfter(text, "\n+y ");
+        ASSERT_EQ(regions.size(), 2u) << text;
+        ASSERT_EQ(up.size(), 2u) << text;
+        for (uint k = 0; k < 2; ++k) {
+            EXPECT_EQ(regions[k].ends_with(": here"), k == i) << text;
+            EXPECT_NEAR(std::stof(up[k]), regionLight(volume, cascade, slots.first + k).irradiance[2].x, 1e-3f * std::stof(up[k]));
+        }
+    }
+}
+
+TEST(Describe, whatASurfaceReadsByWeightAndItsSum) {
+    const BakedVolume volume = hallVolume();
+    const Pick pick{vec3(0.3f, -1.0f, -2.3f), vec3(0.0f, 1.0f, 0.0f), {}};
+    const std::string text = describe(volume, pick, {});
+    const std::size_t table = text.find("cell         weight");
+    ASSERT_NE(table, std::string::npos) << text;
+    std::istringstream lines(text.substr(text.find('\n', table) + 1));
+    double last = 1.0, sum = 0.0;
+    int terms = 0;
+    for (std::string line; std::getline(lines, line) && !line.empty() && !line.starts_with("cascade"); ++terms) {
+        const bool others = line.find("others") != std::string::npos;
+        const double weight = others ? 0.0 : std::stod(line.substr(13));
+        EXPECT_LE(weight, last) << line;
+        EXPECT_TRUE(others || weight > 0.0) << line;
+        last = weight;
+        if (const std::size_t adds = line.find('('); adds != std::string::npos) sum += std::stod(line.substr(adds + 1));
+    }
+    EXPECT_GT(terms, 8);
+    const std::size_t gives = text.find("cascade 0 gives (");
+    ASSERT_NE(gives, std::string::npos) << text;
+    const double expected = std::stod(text.substr(gives + 17));
+    EXPECT_NEAR(sum, expected, 2e-3 * expected);
 }
 
 TEST(Drag, thePlaneStaysUnderTheMouse) {

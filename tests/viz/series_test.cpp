@@ -28,12 +28,12 @@ protected:
         writeSeries("S.pvd", steps, pathOf());
         return file("S.pvd");
     }
-    // The frames whose cells clicks printed, by how much light they hold beside frame 0.
+    // The frames whose cells clicks printed, by how much light they hold beside frame 0; a region of a cell behind a wall holds none.
     std::vector<int> framesIn(const std::string& text) const {
         std::vector<double> sums;
         for (std::size_t at = 0; (at = text.find("\n+y ", at)) != std::string::npos; ++at) {
             double r = 0.0, g = 0.0, b = 0.0;
-            if (std::sscanf(text.c_str() + at, "\n+y %lf %lf %lf", &r, &g, &b) == 3) sums.push_back(r + g + b);
+            if (std::sscanf(text.c_str() + at, "\n+y %lf %lf %lf", &r, &g, &b) == 3 && r + g + b > 0.0) sums.push_back(r + g + b);
         }
         std::vector<int> frames;
         for (const double sum : sums) frames.push_back(int(std::lround(std::log2(sum / sums.front()))));
@@ -79,6 +79,8 @@ TEST_F(SeriesWindow, optionsSayWhichFrameAndThatItPlays) {
     const std::string series = bakeSeries();
     const std::string all = runViz({series, "--pick", "0.28,0.28,0.28"}).out + runViz({series, "--pick", "0.28,0.28,0.28", "--frame", "2"}).out;
     EXPECT_EQ(framesIn(all), (std::vector<int>{0, 2}));
+    const std::string figure = runViz({series, "--pick", "0.28,0.28,0.28"}).out + runViz({series, "--figure", "3.3", "--pick", "0.28,0.28,0.28"}).out;
+    EXPECT_EQ(framesIn(figure), (std::vector<int>{0, kFrames - 1}));
     const CommandResult beyond = runViz({series, "--frame", "4", "--out", file("p.png")});
     EXPECT_EQ(beyond.status, 2);
     EXPECT_TRUE(contains(beyond.err, "--frame 4: expected a number below 4")) << beyond.err;

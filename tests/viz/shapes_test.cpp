@@ -6,7 +6,9 @@
 #include "clv/cpu/parallel.h"
 #include "support/hall_volume.h"
 #include "viz/cell_shapes.h"
+#include "viz/color_bar.h"
 #include "viz/scene_mesh.h"
+#include "viz/status.h"
 
 using namespace clv;
 using namespace clv::test;
@@ -20,9 +22,32 @@ TEST(ColorScale, endsAtARoundNumberThatFewValuesExceed) {
     const ColorScale scale = scaleFor("x", values);
     EXPECT_EQ(scale.lo, 0.0);
     EXPECT_DOUBLE_EQ(scale.hi, 2.0);
+    EXPECT_FLOAT_EQ(float(scale.most), 1.3f);
     EXPECT_EQ(scale.color(-1.0), scale.color(0.0));
     EXPECT_EQ(scale.color(7.0), scale.color(2.0));
     EXPECT_NE(scale.color(0.5), scale.color(1.0));
+}
+
+TEST(ColorBar, marksTheEndsThatValuesLieBeyond) {
+    ColorScale scale{.title = "x", .lo = -2.0, .hi = 2.0, .least = -1.0, .most = 2.0};
+    EXPECT_EQ(labelOf(scale, 1.0), "2.00");
+    EXPECT_EQ(labelOf(scale, 0.0), "-2.00");
+    scale.least = -2.5, scale.most = 7.0;
+    EXPECT_EQ(labelOf(scale, 1.0), ">= 2.00");
+    EXPECT_EQ(labelOf(scale, 0.5), "0.00");
+    EXPECT_EQ(labelOf(scale, 0.0), "<= -2.00");
+}
+
+TEST(Status, saysWhatKeysHaveSet) {
+    View view;
+    EXPECT_EQ(statusOf(view, 1), "cells with any light, exposure +0.0");
+    view.threshold = 0.002f, view.exposure = -1.5, view.cascade = 1;
+    EXPECT_EQ(statusOf(view, 3), "cells from 0.002 W/m^2, exposure -1.5, cascade 1 alone");
+    view.subject = Subject::samples, view.slices = {{2, 0.25}};
+    EXPECT_EQ(statusOf(view, 1), "z = 0.250 m");
+    view.lookup.planeCulling = false;
+    view.subject = Subject::mesh;
+    EXPECT_EQ(statusOf(view, 1), "exposure -1.5, no plane culling");
 }
 
 TEST(ColorScale, moreStopsAreBrighterAndNoLightIsBlack) {

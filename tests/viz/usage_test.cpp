@@ -1,4 +1,5 @@
 // What clv-viz says to bad usage, and what it prints of a typed position.
+#include "viz/virtual_display.h"
 #include "viz/viz_command.h"
 
 using namespace clv;
@@ -12,15 +13,32 @@ TEST_F(VizUsage, badOptionsGiveOneLineThatSaysWhatWasExpected) {
     const std::string volume = bake("cornell", 4);
     const std::vector<std::vector<std::string>> bad = {{"--slice", "w=1"},      {"--size", "10"},         {"--view", "nothing"}, {"--pick", "1,2"},
                                                        {"--pick", "0,0,0,1,1,0"}, {"--range", "2,1"},       {"--camera", "roof"},  {"--camera", "0,0,0,0,0,0"},
-                                                       {"--cascade", "9"},        {"--scene", "nowhere.glb"}, {"--exposure", "nan"}, {"--on", "surfaces"}, {"--frame", "1"}};
+                                                       {"--cascade", "9"},        {"--scene", "nowhere.glb"}, {"--exposure", "nan"}, {"--on", "surfaces"}, {"--frame", "1"},
+                                                       {"--without"}, {"--without", "--view", "mesh"}, {"--difference", volume, "--view", "mesh"}, {"--on", "volume"}, {"--slice", "z=0.1"},
+                                                       {"--view", "samples", "--on", "slices"}, {"--view", "samples", "--on", "volume", "--slice", "z=0.1"},
+                                                       {"--view", "samples", "--slice", "x=99"}, {"--play"}, {"--benchmark"}, {"--histogram", "--probe", "0,0,0,1,1,1"}};
     for (std::vector<std::string> arguments : bad) {
         arguments.insert(arguments.begin(), {volume, "--out", file("p.png")});
         const CommandResult result = runViz(arguments);
-        EXPECT_EQ(result.status, 2) << arguments[3] << " " << arguments[4];
+        EXPECT_EQ(result.status, 2) << arguments[3] << " " << arguments.back();
         EXPECT_TRUE(result.err.starts_with("clv-viz: ")) << result.err;
         EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << arguments[3] << " " << result.err;
         EXPECT_FALSE(std::filesystem::exists(file("p.png"))) << arguments[3];
     }
+}
+
+TEST_F(VizUsage, aPictureIsNamedAsOne) {
+    const CommandResult result = runViz({bake("cornell", 4), "--out", file("p.jpg")});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, "p.jpg: expected a name that ends in .png")) << result.err;
+    EXPECT_EQ(listing(), (std::vector<std::string>{"V", "V.vtm"}));
+}
+
+TEST_F(VizUsage, seriesArePlayedAndPlanesCutTheVolumeOrAWordIsSaid) {
+    const VirtualDisplay display;
+    const std::string volume = bake("cornell", 4);
+    EXPECT_TRUE(contains(runViz({volume, "--play"}).err, "--play: expected a series"));
+    EXPECT_TRUE(contains(runViz({volume, "--view", "open", "--slice", "y=-3"}).err, "--slice y=-3: expected a place in the volume, from "));
 }
 
 TEST_F(VizUsage, aMissingFileIsNamed) {
@@ -128,7 +146,7 @@ TEST_F(VizUsage, anotherSceneThanTheVolumesIsRefusedInOneLine) {
     writeGlb(other, file("other.glb"));
     const std::string volume = bake("cornell", 4);
     EXPECT_EQ(runViz({volume, "--scene", file("same.glb"), "--view", "mesh", "--size", "64x48", "--out", file("p.png")}).status, 0);
-    for (const std::string scene : {file("other.glb"), std::string("furnace_box"), std::string("two_rooms")}) {
+    for (const std::string& scene : {file("other.glb"), std::string("furnace_box"), std::string("two_rooms")}) {
         const CommandResult result = runViz({volume, "--scene", scene, "--view", "mesh", "--out", file("q.png")});
         EXPECT_EQ(result.status, 2) << scene;
         EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;

@@ -15,12 +15,15 @@ namespace {
 // move edges and letters by a fraction of a pixel.
 constexpr double kTolerance = 0.01;
 
+vtkNew<vtkPNGReader> readPicture(const std::string& file) {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    return reader;
+}
+
 double differencePerPixel(const std::string& picture, const std::string& reference) {
-    vtkNew<vtkPNGReader> a, b;
-    a->SetFileName(picture.c_str());
-    b->SetFileName(reference.c_str());
-    a->Update();
-    b->Update();
+    const auto a = readPicture(picture), b = readPicture(reference);
     const int *size = a->GetOutput()->GetDimensions(), *expected = b->GetOutput()->GetDimensions();
     if (size[0] != expected[0] || size[1] != expected[1]) return 1.0;
     vtkNew<vtkImageDifference> difference;
@@ -77,7 +80,10 @@ TEST_P(Views, lookLikeTheirReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Headless, Views,
-                         ::testing::Values(NamedView{"cubes", {}, Shown::one, 1}, NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}, Shown::one, 1},
+                         ::testing::Values(NamedView{"cubes", {}, Shown::one, 1}, NamedView{"lights_behind_cubes", {"--lights", "--frustum", "--pick", "0.28,0.28,0.28"}},
+                                            NamedView{"variance_slices", {"--view", "variance", "--slice", "z=0.1", "x=0.2"}, Shown::one, 1},
+                                           NamedView{"picked_cell", {"--view", "irradiance", "--slice", "z=0.3", "--pick", "0.2,0.3,0.3"}},
+                                           NamedView{"noise_slices", {"--view", "noise", "--slice", "z=0.1"}},
                                            NamedView{"irradiance_volume", {"--view", "irradiance", "--on", "volume", "--wireframe"}, Shown::one, 1},
                                            NamedView{"mesh_from_within", {"--view", "mesh", "--direct", "--camera", "0"}, Shown::one, 1},
                                            NamedView{"rays", {"--view", "rays", "--rays", "300", "--lights", "--frustum"}, Shown::one, 1},
@@ -88,11 +94,24 @@ INSTANTIATE_TEST_SUITE_P(Headless, Views,
                                            NamedView{"side_by_side", {"--view", "irradiance", "--on", "cells"}, Shown::two},
                                            NamedView{"difference", {"--view", "irradiance", "--difference"}, Shown::two},
                                            NamedView{"probe", {"--view", "irradiance", "--slice", "y=0.3", "--probe", "0.05,0.3,0.2,0.5,0.3,0.4"}},
+                                           NamedView{"probe_across_a_block", {"--view", "irradiance", "--probe", "0.01,0.2,0.3,0.54,0.2,0.3"}},
                                            NamedView{"histogram", {"--view", "irradiance", "--histogram"}},
                                            NamedView{"figure_3_1", {"--figure", "3.1"}}, NamedView{"figure_3_2", {"--figure", "3.2"}},
                                            NamedView{"figure_3_3", {"--figure", "3.3"}, Shown::moved}, NamedView{"figure_4_1", {"--figure", "4.1"}},
                                            NamedView{"figure_4_3", {"--figure", "4.3"}}),
                          [](const auto& info) { return info.param.name; });
+
+TEST_F(Views, aVolumeIsAsDenseFromOneSideAsFromAnother) {
+    unsetenv("DISPLAY");
+    const std::string volume = bake("cornell", 12);
+    // All cells hold the light of the same number of rays. The background is darker than 30.
+    for (const std::string camera : {"0.28,0.28,-1.2,0.28,0.28,0.3", "1.7,0.28,0.28,0.3,0.28,0.28", "1.2,1.1,-0.9,0.28,0.28,0.28"}) {
+        const CommandResult result = runViz({volume, "--view", "samples", "--on", "volume", "--no-boxes", "--camera", camera, "--size", "160x120", "--out", file("picture.png")});
+        ASSERT_EQ(result.status, 0) << result.err;
+        const auto reader = readPicture(file("picture.png"));
+        for (int c = 0; c < 3; ++c) EXPECT_GT(reader->GetOutput()->GetScalarComponentAsDouble(80, 60, 0, c), 50.0) << camera;
+    }
+}
 
 TEST_F(Views, pictureIsWholeOrAbsent) {
     const std::string volume = bake("cornell", 8);

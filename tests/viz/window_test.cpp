@@ -40,11 +40,27 @@ TEST_F(Window, aSliceFollowsTheMouse) {
     EXPECT_GT(places[1].x, 0.05f);
 }
 
+TEST_F(Window, theSceneIsSeenThroughItsCamerasAgain) {
+    const std::string volume = bake("two_rooms", 8);
+    const Scene scene = loadScene("two_rooms");
+    ASSERT_GE(scene.cameras.size(), 2u);
+    open({volume, "--size", "320x180", "--view", "mesh"});
+    ASSERT_EQ(doToWindow("key s mousemove 160 90 click 1 key r key s mousemove 160 90 click 1"), 0);
+    const CommandResult result = close();
+    EXPECT_EQ(result.status, 0) << result.err;
+    const std::vector<vec3> places = placesIn(result.out);
+    ASSERT_EQ(places.size(), 2u) << result.out;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Camera& camera = scene.cameras[k];
+        EXPECT_GT(dot(normalize(vec3(glm::dvec3(places[k]) - scene.anchor) - camera.position), camera.forward), 0.99f) << camera.name;
+    }
+}
+
 TEST_F(Window, keysChangeTheViewAndListThemselves) {
     const std::string volume = bake("cornell", 8);
     open({volume, "--size", "320x180"});
     // Help; then each subject, each light of the mesh, an own plane, another cascade, thresholds.
-    ASSERT_EQ(doToWindow("key h key h key 3 key 4 key 8 key d key i key z key c key Up key Down key 1 mousemove 160 90 click 1"), 0);
+    ASSERT_EQ(doToWindow("key h key h key 3 key 4 key 8 key d key i key z key c key Up key Down key o key s key r key n key 1 mousemove 160 90 click 1"), 0);
     const CommandResult result = close();
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_EQ(result.err, "");

@@ -74,6 +74,13 @@ TEST(BakedVolume, theSidesOfACellAreItsDepositsOverItsOpenVolume) {
             EXPECT_NEAR(light.openVolume, volumes, 1e-6 * volumes);
             EXPECT_EQ(light.dynamicity[4], float(dynamicity));
             for (const float variance : light.variance) EXPECT_EQ(variance, 0.0f);
+            double ofRegions = 0.0;
+            for (uint s = slots.first; s < slots.first + slots.count; ++s) {
+                const CellLight region = regionLight(volume, cascade, s);
+                EXPECT_EQ(region.slots, 1u);
+                ofRegions += double(region.openVolume) * double(region.irradiance[4].y);
+            }
+            EXPECT_NEAR(ofRegions, deposits, 1e-5 * deposits);
         }
         EXPECT_GT(split, 0);
     }
