@@ -177,7 +177,7 @@ void GltfImport::addMesh(const JsonReader& node, const std::string& name, const 
         for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
             const glm::dvec3 position(worldFromNode * glm::dvec4(primitive.positions[v], 1.0));
             const glm::vec2 uv = primitive.uvs[v];
-            if (!std::isfinite(glm::dot(position, position)) || !std::isfinite(glm::dot(uv, uv)))
+            if (!std::isfinite(position.x + position.y + position.z) || !std::isfinite(glm::dot(uv, uv)))
                 descriptions[p].fail(fmt::format("mesh '{}' to have a finite position at vertex {}", meshName, v));
             builder_.addVertex(position, uv);
         }

@@ -48,7 +48,7 @@ void addMesh(const aiMesh& mesh, const std::string& file, SceneBuilder& builder)
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& p = mesh.mVertices[i];
         const aiVector3D uv = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i] : aiVector3D(0.0f);
-        if (!std::isfinite(p.SquareLength()) || !std::isfinite(uv.SquareLength()))
+        if (!std::isfinite(double(p.x) + p.y + p.z) || !std::isfinite(uv.SquareLength()))
             throw InputError(fmt::format("{}: mesh '{}', vertex {}: expected a finite position", file, mesh.mName.C_Str(), i));
         builder.addVertex({p.x, p.y, p.z}, {uv.x, 1.0f - uv.y});  // OBJ's v points up
     }

@@ -62,6 +62,7 @@ const Damage kDamages[] = {
     {"verticesOnly", kSquare, "no faces"},
     {"vertexNotANumber", "v 0 0 nan\n" + kSquare + "f 1 2 3\n", ":1: expected a vertex"},
     {"vertexInfinite", kSquare + "v 0 1e999 0\nf 1 2 3\n", ":5: expected a vertex"},
+    {"vertexFarOut", kSquare + "v 0 1e30 0\nf 1 2 5\n", "vertex 2: expected coordinates of at most 1e+12 m"},
     {"vertexOfTwoNumbers", "v 0 0\n" + kSquare + "f 1 2 3\n", ":1: expected a vertex"},
     {"vertexOfText", kSquare + "v a b c\nf 1 2 3\n", ":5: expected a vertex"},
     {"cornerBeyondVertices", kSquare + "f 1 2 5\n", ":5: expected corners among the 4 vertices"},
