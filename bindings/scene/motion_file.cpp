@@ -103,6 +103,7 @@ Motion loadMotion(const std::string& file, const Scene& scene) {
     if (root.has("objects")) root["objects"].fail("no objects: those that move are not available; lights and the camera are");
     checkMembers(root, {"fps", "lights", "camera"});
     Motion motion;
+    motion.file = file;
     motion.fps = root.number("fps", motion.fps);
     if (!(motion.fps > 0.0 && motion.fps <= 1e6)) root["fps"].fail("a number above 0 and at most 1e6");
     std::set<std::size_t> seen;
