@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "bindings/cli/camera_view.h"
 #include "bindings/cli/heed_lights.h"
 #include "bindings/cli/moving_light.h"
@@ -72,9 +74,9 @@ PipelineReport bakeMotion(const Scene& scene, const Motion& motion, const LightO
         lit = lit || !lightsThatSend(moving).empty();
         if (follows) {
             volume.camera = cameraOf(frame);
-            light.moveTo(viewOf(scene, *volume.camera));
+            light.moveTo(viewOf(scene, *volume.camera), fmt::format("{}: frame {}", motion.camera ? motion.file : scene.name, frame));
         } else if (frame == 0) {
-            light.moveTo({.position = scene.anchor + glm::dvec3(scene.bounds.center())});
+            light.moveTo({.position = scene.anchor + glm::dvec3(scene.bounds.center())}, scene.name);
         }
         light.frame(float(1.0 / motion.fps));
         volume.lights = moving.lights;

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include "bindings/cli/standard_streams.h"
 #include "bindings/scene/scene.h"
 
 namespace clv {
@@ -22,7 +24,7 @@ int fail(int status, const CLI::App& app, std::string message) {
     std::ranges::replace(message, '\n', ' ');
     std::string who = app.get_name();
     for (const CLI::App* command : app.get_subcommands()) who += " " + command->get_name();
-    fmt::print(stderr, "{}: {}\n", who, message);
+    sayOnStderr(fmt::format("{}: {}", who, message));
     return status;
 }
 
@@ -53,6 +55,8 @@ int runCommandLine(int argc, const char* const* argv) {
         return fail(kBadUsageOrInput, app, error.what());
     } catch (const InputError& error) {
         return fail(kBadUsageOrInput, app, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(kRunTimeFailure, app, "more memory is needed than there is; a smaller scene or picture, fewer points, lights or rays, or a lower --resolution need less");
     } catch (const std::exception& error) {
         return fail(kRunTimeFailure, app, error.what());
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "bindings/embree/light_maps.h"
 
 namespace clv {
@@ -51,8 +53,8 @@ MovingLight::MovingLight(const EmbreeScene& scene, const MovingLightOptions& opt
     : scene_(scene), options_(options), parallelFor_(parallelFor), settings_(settingsOf(scene, options)),
       lighting_(settings_, scene.probe(), [&scene](std::span<ClvRay> rays) { scene.trace(rays); }, parallelFor) {}
 
-void MovingLight::moveTo(const CameraView& view) {
-    if (const std::string problem = validate(settings_, view); !problem.empty()) throw InputError(problem);
+void MovingLight::moveTo(const CameraView& view, const std::string& place) {
+    if (const std::string problem = validate(settings_, view); !problem.empty()) throw InputError(fmt::format("{}: {}", place, problem));
     time("move", [&] { lighting_.moveTo(view); });
 }
 

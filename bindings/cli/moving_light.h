@@ -27,8 +27,8 @@ public:
     // The scene must outlive it; its lights may change between frames. Throws InputError where there is something wrong with the options.
     MovingLight(const EmbreeScene& scene, const MovingLightOptions& options, const ParallelFor& parallelFor);
 
-    // The volumes go where the camera is; before the first frame, and as often as it moves. Throws InputError.
-    void moveTo(const CameraView& view);
+    // The volumes go where the camera is; before the first frame, and as often as it moves. Throws InputError, beginning with `place`.
+    void moveTo(const CameraView& view, const std::string& place);
     // A frame of the scene's lights as they are now. timestep: s, > 0.
     void frame(float timestep);
 

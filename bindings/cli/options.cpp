@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include "bindings/cli/standard_streams.h"
 #include "bindings/embree/task_pool.h"
 
 namespace clv {
@@ -24,7 +25,9 @@ void addCommonOptions(CLI::App& command, CommonOptions& options) {
     command.add_option("--threads", options.threads, "Threads to use; 0: all of the machine's")
         ->check(CLI::Range(0, kMaxThreads))
         ->capture_default_str();
-    command.add_option("--seed", options.seed, "Seed of the random numbers; results are the same for the same seed")->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the random numbers; results are the same for the same seed")
+        ->check(CLI::Range(std::uint32_t(0), std::numeric_limits<std::uint32_t>::max()))
+        ->capture_default_str();
 }
 
 int threadCount(const CommonOptions& options) {
@@ -57,6 +60,7 @@ Scene loadScene(const SceneOptions& options, Report& report) {
     report["triangles"] = scene.triangles.size();
     report["lights"] = scene.lights.size();
     if (scene.droppedTriangles > 0) report["dropped_triangles"] = scene.droppedTriangles;
+    for (const std::string& warning : scene.warnings) sayOnStderr("clv: " + warning);
     if (!scene.ignored.empty()) report["ignored"] = scene.ignored;
     return scene;
 }

@@ -4,10 +4,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "bindings/cli/first_bounce.h"
 #include "bindings/cli/further_bounces.h"
+#include "bindings/cli/standard_streams.h"
 #include "bindings/vulkan/vulkan_device.h"
 
 namespace clv {
@@ -69,7 +68,7 @@ void reportLight(const PipelineReport& run, Report& report) {
     if (!run.device.empty()) report["device"] = run.device;
     if (!run.whyCpu.empty()) {
         report["why_cpu"] = run.whyCpu;
-        fmt::print(stderr, "clv: --backend auto takes the CPU: {}\n", run.whyCpu);
+        sayOnStderr("clv: --backend auto takes the CPU: " + run.whyCpu);
     }
     Report levels = Report::array();
     for (const auto& [resolution, weight] : run.levels) levels.push_back({{"resolution", resolution}, {"weight", weight}});
@@ -86,7 +85,7 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["stages"] = stages;
     report["frame_ms"] = 1e3 * run.frameSeconds;
     if (!run.warnings.empty()) report["warnings"] = run.warnings;
-    for (const std::string& warning : run.warnings) fmt::print(stderr, "clv: {}\n", warning);
+    for (const std::string& warning : run.warnings) sayOnStderr("clv: " + warning);
 }
 
 }  // namespace clv

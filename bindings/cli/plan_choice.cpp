@@ -8,6 +8,7 @@
 
 #include "bindings/cli/model_cache.h"
 #include "bindings/cli/progress.h"
+#include "bindings/cli/standard_streams.h"
 
 namespace clv {
 namespace {
@@ -25,7 +26,7 @@ CostModel modelOfThisMachine(const ChoiceOptions& options, const CommonOptions& 
         try {
             cache.keep(key, *model);
         } catch (const std::runtime_error& error) {
-            fmt::print(stderr, "clv: the model of this machine is not kept: {}\n", error.what());
+            sayOnStderr(fmt::format("clv: the model of this machine is not kept: {}", error.what()));
         }
     }
     return *model;

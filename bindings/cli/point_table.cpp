@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bindings/cli/write_text.h"
+#include "bindings/scene/reach.h"
 
 namespace clv {
 namespace {
@@ -50,15 +51,14 @@ std::array<double, kColumns> parseRow(std::string_view row, const std::string& p
 }
 
 ReferencePoint pointFromRow(const std::array<double, kColumns>& row, const glm::dvec3& anchor, const std::string& place) {
-    const glm::vec3 position(glm::dvec3(row[0], row[1], row[2]) - anchor);
-    if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
-        throw InputError(fmt::format("{}: expected a position that fits a 32-bit float, m", place));
+    const glm::dvec3 position(row[0], row[1], row[2]);
+    checkReach(position, place);
     const glm::dvec3 normal(row[3], row[4], row[5]);
     const double length = glm::length(normal);
     // Negated, so that a length that overflows is refused too.
     if (!(std::abs(length - 1.0) <= kUnitTolerance))
         throw InputError(fmt::format("{}: expected a normal of unit length, found length {:.6g}", place, length));
-    return {position, glm::vec3(normal / length)};
+    return {glm::vec3(position - anchor), glm::vec3(normal / length)};
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "bindings/cli/standard_streams.h"
 
 namespace clv {
 namespace {
@@ -24,7 +25,7 @@ Progress::Progress(std::string label)
     : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), nextDraw_(start_ + kQuietTime) {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "{}", kWipe);
+    if (drawn_) writeStderr(kWipe);
 }
 
 double Progress::seconds() const {
@@ -44,8 +45,7 @@ void Progress::update(double share) {
     if (!lock || Clock::now() < nextDraw_) return;
     share = std::clamp(share, 0.0, 1.0);
     const int filled = int(std::lround(share * kBarWidth));
-    fmt::print(stderr, "{}{} [{:=<{}}{:<{}}] {:3.0f} %{}", kWipe, label_, "", filled, "", kBarWidth - filled, 100.0 * share, timeLeftText(seconds(), share));
-    std::fflush(stderr);
+    writeStderr(fmt::format("{}{} [{:=<{}}{:<{}}] {:3.0f} %{}", kWipe, label_, "", filled, "", kBarWidth - filled, 100.0 * share, timeLeftText(seconds(), share)));
     drawn_ = true;
     nextDraw_ = Clock::now() + kRedrawTime;
 }

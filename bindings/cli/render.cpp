@@ -114,11 +114,19 @@ struct RenderCommand {
     std::string camera = "0", out;
     int width = 640, height = 0;  // pixels; height 0: follows from the camera
 
+    int rowsOf(const Camera& view) const {
+        const double rows = std::round(double(width) / double(view.aspect));
+        if (!(rows >= 1.0 && rows <= kMaxPictureSide))
+            throw InputError(fmt::format("{}: camera '{}': expected an aspect ratio that makes 1 to {} rows of {} pixels, or --height; {:g} makes {:g}", scene.scene, view.name,
+                                         kMaxPictureSide, width, view.aspect, rows));
+        return int(rows);
+    }
+
     void run(const CLI::App& command) const {
         Report report = startReport(command, common, true);
         const Scene loaded = loadScene(scene, report);
         const Camera& view = chooseCamera(loaded, camera);
-        const int rows = height > 0 ? height : std::max(1, int(std::lround(float(width) / view.aspect)));
+        const int rows = height > 0 ? height : rowsOf(view);
         StagedOutput output(outputFolder(out));
 
         const ParallelFor parallelFor = parallelForOf(common);

@@ -18,12 +18,20 @@ fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+// Throws InputError for a name that no file can have, such as one that is too long.
+fs::file_type typeOf(const fs::path& name) {
+    std::error_code error;
+    const fs::file_status status = fs::status(name, error);
+    if (!fs::status_known(status)) throw InputError(fmt::format("{}: expected the name of a file: {}", name.string(), error.message()));
+    return status.type();
+}
+
 }  // namespace
 
 fs::path outputFolder(const std::string& name) {
     std::error_code error;
     fs::create_directory(name, error);
-    if (!fs::is_directory(name)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", name));
+    if (typeOf(name) != fs::file_type::directory) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", name));
     return name;
 }
 
@@ -45,10 +53,11 @@ StagedOutput::~StagedOutput() {
 std::string StagedOutput::path(const std::string& name) {
     const fs::path target = folder_ / name;
     const fs::path holder = folderOf(target);
-    if (fs::exists(holder) && !fs::is_directory(holder)) throw InputError(fmt::format("{}: expected a folder, or a name for a new one", holder.string()));
+    if (const fs::file_type type = typeOf(holder); type != fs::file_type::not_found && type != fs::file_type::directory)
+        throw InputError(fmt::format("{}: expected a folder, or a name for a new one", holder.string()));
     fs::create_directories(folderOf(hidden_ / name));
     // Renaming over a device such as /dev/null would replace it for everybody.
-    if (fs::exists(target) && !fs::is_regular_file(target))
+    if (const fs::file_type type = typeOf(target); type != fs::file_type::not_found && type != fs::file_type::regular)
         throw InputError(fmt::format("{}: expected the name of a file, but something else has that name", target.string()));
     if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
     return (hidden_ / name).string();

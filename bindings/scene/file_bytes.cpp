@@ -1,6 +1,5 @@
 #include "bindings/scene/file_bytes.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -10,9 +9,14 @@
 
 namespace clv {
 
+bool isFile(const std::filesystem::path& name) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(name, error);
+}
+
 std::vector<std::uint8_t> readFileBytes(const std::string& file) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) throw InputError(file + ": no such file");
+    if (!isFile(file)) throw InputError(file + ": no such file");
     std::ifstream in(file, std::ios::binary);
     std::vector<std::uint8_t> bytes(std::filesystem::file_size(file, error));
     in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));

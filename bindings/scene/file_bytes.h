@@ -1,10 +1,14 @@
 // Whole files in and out of memory.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace clv {
+
+// Also false where the name cannot be that of a file.
+bool isFile(const std::filesystem::path& name);
 
 // Throws InputError when the file cannot be read.
 std::vector<std::uint8_t> readFileBytes(const std::string& file);

@@ -137,7 +137,7 @@ void checkNodes(const GltfDocument& document) {
 }  // namespace
 
 ByteRange bufferViewBytes(const GltfDocument& document, std::size_t index) {
-    const JsonReader view = document.root().elements("bufferViews")[index];
+    const JsonReader view = document.root()["bufferViews"].element(index);
     return {document.buffers[view["buffer"].index()].data() + view.index("byteOffset", 0), view["byteLength"].index()};
 }
 
@@ -150,7 +150,7 @@ std::vector<std::uint8_t> readUri(const GltfDocument& document, const JsonReader
         return decodeBase64(uri, text, data + marker.size());
     }
     const std::filesystem::path beside = std::filesystem::path(document.file).parent_path() / decodePercent(uri, text);
-    if (!std::filesystem::is_regular_file(beside)) uri.fail(fmt::format("a file {}", beside.string()));
+    if (!isFile(beside)) uri.fail(fmt::format("a file {}", beside.string()));
     return readFileBytes(beside.string());
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <string_view>
 
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -109,6 +111,13 @@ void joinBuffers(const GltfDocument& document, ReducedGltf& reduced) {
     }
 }
 
+// The root, which is the node itself where there is but one, and those below it.
+std::map<std::string_view, const aiNode*> nodesByName(const aiNode& root) {
+    std::map<std::string_view, const aiNode*> nodes = {{root.mName.C_Str(), &root}};
+    for (unsigned i = 0; i < root.mNumChildren; ++i) nodes.emplace(root.mChildren[i]->mName.C_Str(), root.mChildren[i]);
+    return nodes;
+}
+
 GltfPrimitive takeTriangles(const aiMesh& mesh) {
     GltfPrimitive primitive;
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
@@ -166,12 +175,13 @@ std::vector<std::vector<GltfPrimitive>> decodeTriangles(const GltfDocument& docu
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "glb");
     if (!scene || !scene->mRootNode) throw InputError(fmt::format("{}: meshes: {}", document.file, importer.GetErrorString()));
+    const std::map<std::string_view, const aiNode*> nodes = nodesByName(*scene->mRootNode);
     for (std::size_t i = 0; i < expected.size(); ++i) {
         const auto& [m, p, triangles] = expected[i];
-        const JsonReader primitive = meshes[m]["primitives"].elements()[p];
-        const aiNode* node = scene->mRootNode->FindNode(std::to_string(i).c_str());
-        if (!node || node->mNumMeshes != 1) primitive.fail("a primitive that can be decoded");
-        const aiMesh& mesh = *scene->mMeshes[node->mMeshes[0]];
+        const JsonReader primitive = meshes[m]["primitives"].element(p);
+        const auto node = nodes.find(std::to_string(i));
+        if (node == nodes.end() || node->second->mNumMeshes != 1) primitive.fail("a primitive that can be decoded");
+        const aiMesh& mesh = *scene->mMeshes[node->second->mMeshes[0]];
         if (mesh.mNumFaces != triangles) primitive.fail(fmt::format("{} triangles, not the {} that could be decoded", triangles, mesh.mNumFaces));
         result[m][p] = takeTriangles(mesh);
     }

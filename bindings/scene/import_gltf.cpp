@@ -16,6 +16,7 @@ namespace clv {
 namespace {
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr double kRounding = 1e-6;  // of matrices that exporters write
 
 class GltfImport {
 public:
@@ -135,23 +136,26 @@ glm::dmat4 parentFromNode(const JsonReader& node) {
     if (node.has("matrix")) {
         const std::vector<double> columns = node["matrix"].numbers(16);
         for (int i = 0; i < 16; ++i) transform[i / 4][i % 4] = columns[i];
+        for (int i = 0; i < 4; ++i)
+            if (std::abs(transform[i][3] - (i == 3 ? 1.0 : 0.0)) > kRounding) node["matrix"].fail("a last row of 0, 0, 0, 1");
         return transform;
     }
     transform = glm::translate(transform, node.vector("translation", glm::dvec3(0.0)));
     if (node.has("rotation")) {
         const std::vector<double> xyzw = node["rotation"].numbers(4);
         const glm::dquat rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
-        if (!(glm::length(rotation) > 0.0)) node["rotation"].fail("a quaternion that is not zero");
+        const double length = glm::length(rotation);
+        if (!(length > 0.0 && std::isfinite(length))) node["rotation"].fail("a quaternion that is finite and not zero");
         transform *= glm::mat4_cast(glm::normalize(rotation));
     }
     return glm::scale(transform, node.vector("scale", glm::dvec3(1.0)));
 }
 
-// Where the node's axis points in the world, unit length.
-glm::dvec3 axisInWorld(const JsonReader& node, const glm::dmat4& worldFromNode, const glm::dvec3& axis) {
-    const glm::dvec3 turned = glm::dmat3(worldFromNode) * axis;
-    if (!(glm::length(turned) > 0.0)) node.fail("a transform that leaves a direction to a light or camera");
-    return glm::normalize(turned);
+// Where a light shines in the world, unit length.
+glm::vec3 directionOf(const JsonReader& node, const glm::dmat4& worldFromNode) {
+    const glm::dvec3 direction = glm::dmat3(worldFromNode) * glm::dvec3(0, 0, -1);
+    if (!(glm::length(direction) > 0.0)) node.fail("a transform that leaves a direction to a light");
+    return glm::vec3(glm::normalize(direction));
 }
 
 void GltfImport::addNode(std::size_t index, const glm::dmat4& worldFromParent) {
@@ -177,7 +181,7 @@ void GltfImport::addMesh(const JsonReader& node, const std::string& name, const 
         for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
             const glm::dvec3 position(worldFromNode * glm::dvec4(primitive.positions[v], 1.0));
             const glm::vec2 uv = primitive.uvs[v];
-            if (!std::isfinite(glm::dot(position, position)) || !std::isfinite(glm::dot(uv, uv)))
+            if (!std::isfinite(position.x + position.y + position.z) || !std::isfinite(glm::dot(uv, uv)))
                 descriptions[p].fail(fmt::format("mesh '{}' to have a finite position at vertex {}", meshName, v));
             builder_.addVertex(position, uv);
         }
@@ -195,17 +199,16 @@ void GltfImport::addLight(const JsonReader& node, const glm::dmat4& worldFromNod
     const double strength = light.number("intensity", 1.0);
     if (!(strength >= 0.0)) light["intensity"].fail("a number that is not negative");
     const glm::vec3 intensity(strength * color);
-    const glm::vec3 direction(axisInWorld(node, worldFromNode, {0, 0, -1}));
     const std::string type = light["type"].text();
     ClvLight made;
     if (type == "point") {
         made = makePointLight(intensity);
     } else if (type == "directional") {
-        made = makeDirectionalLight(direction, intensity);
+        made = makeDirectionalLight(directionOf(node, worldFromNode), intensity);
     } else if (type == "spot") {
         const JsonReader spot = light["spot"];
         // Defaults of KHR_lights_punctual.
-        made = makeSpotLight(direction, intensity, float(spot.number("innerConeAngle", 0.0)),
+        made = makeSpotLight(directionOf(node, worldFromNode), intensity, float(spot.number("innerConeAngle", 0.0)),
                              float(spot.number("outerConeAngle", kClvPi / 4.0)));
     } else {
         light["type"].fail("point, spot or directional");
@@ -225,10 +228,15 @@ void GltfImport::addCamera(const JsonReader& node, const glm::dmat4& worldFromNo
     camera.yfov = float(lens["yfov"].number());
     if (!(camera.yfov > 0.0f && camera.yfov < kClvPi)) lens["yfov"].fail("an angle between 0 and pi");
     camera.aspect = float(lens.number("aspectRatio", camera.aspect));
-    if (!(camera.aspect > 0.0f)) lens["aspectRatio"].fail("a positive number");
-    const glm::dvec3 forward = axisInWorld(node, worldFromNode, {0, 0, -1});
-    const glm::dvec3 right = glm::cross(forward, axisInWorld(node, worldFromNode, {0, 1, 0}));
-    if (!(glm::length(right) > 0.0)) node.fail("a transform that leaves a camera its upward direction");
+    if (!(camera.aspect > 0.0f && std::isfinite(camera.aspect))) lens["aspectRatio"].fail("a positive number that fits a float");
+    const glm::dmat3 worldFromCamera(worldFromNode);
+    const glm::dvec3 forward = glm::normalize(worldFromCamera * glm::dvec3(0, 0, -1));
+    const glm::dvec3 right = glm::cross(forward, glm::normalize(worldFromCamera * glm::dvec3(0, 1, 0)));
+    // Negated, because a flat transform leaves no numbers.
+    if (!(glm::length(right) > 0.0)) {
+        builder_.warn(fmt::format("{}: {}: its camera has no direction and is left out", document_.file, node.place()));
+        return;
+    }
     camera.forward = glm::vec3(forward);
     camera.up = glm::vec3(glm::cross(glm::normalize(right), forward));
     builder_.addCamera(camera, glm::dvec3(worldFromNode[3]));

@@ -1,10 +1,13 @@
 #include "bindings/scene/import_obj.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -12,11 +15,24 @@
 
 #include "bindings/scene/file_bytes.h"
 #include "bindings/scene/obj_check.h"
+#include "bindings/scene/obj_text.h"
 #include "bindings/scene/scene_builder.h"
 #include "bindings/scene/texture_codec.h"
 
 namespace clv {
 namespace {
+
+// Gives assimp the texts that were checked.
+class CleanTexts : public Assimp::DefaultIOSystem {
+public:
+    Assimp::IOStream* Open(const char* file, const char*) override {
+        if (!isFile(file)) return nullptr;
+        const std::string text = readObjText(file);
+        auto* bytes = new std::uint8_t[text.size()];
+        std::ranges::copy(text, bytes);
+        return new Assimp::MemoryIOStream(bytes, text.size(), true);
+    }
+};
 
 Material readMaterial(const aiMaterial& source, const std::string& file, SceneBuilder& builder, std::map<std::string, int>& textures) {
     Material material;
@@ -36,7 +52,7 @@ Material readMaterial(const aiMaterial& source, const std::string& file, SceneBu
     if (isNew) {
         const std::string place = fmt::format("{}: material '{}'", file, material.name);
         const std::filesystem::path beside = std::filesystem::path(file).parent_path() / image;
-        if (!std::filesystem::is_regular_file(beside)) throw InputError(fmt::format("{}: expected a file {}", place, beside.string()));
+        if (!isFile(beside)) throw InputError(fmt::format("{}: expected a file {}", place, beside.string()));
         known->second = builder.addTexture(decodeTexture(readFileBytes(beside.string()), image, place));
     }
     material.texture = known->second;
@@ -48,7 +64,7 @@ void addMesh(const aiMesh& mesh, const std::string& file, SceneBuilder& builder)
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& p = mesh.mVertices[i];
         const aiVector3D uv = mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][i] : aiVector3D(0.0f);
-        if (!std::isfinite(p.SquareLength()) || !std::isfinite(uv.SquareLength()))
+        if (!std::isfinite(double(p.x) + p.y + p.z) || !std::isfinite(uv.SquareLength()))
             throw InputError(fmt::format("{}: mesh '{}', vertex {}: expected a finite position", file, mesh.mName.C_Str(), i));
         builder.addVertex({p.x, p.y, p.z}, {uv.x, 1.0f - uv.y});  // OBJ's v points up
     }
@@ -70,11 +86,13 @@ void addNode(const aiScene& scene, const aiNode& node, const std::string& file, 
 }  // namespace
 
 Scene importObj(const std::string& file) {
-    checkObj(file);
+    const std::vector<std::string> warnings = checkObj(file);
     Assimp::Importer importer;
+    importer.SetIOHandler(new CleanTexts);  // which the importer then owns
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene || !scene->mRootNode) throw InputError(fmt::format("{}: {}", file, importer.GetErrorString()));
     SceneBuilder builder(std::filesystem::path(file).stem().string());
+    for (const std::string& warning : warnings) builder.warn(warning);
     std::map<std::string, int> textures;
     for (unsigned i = 0; i < scene->mNumMaterials; ++i) builder.addMaterial(readMaterial(*scene->mMaterials[i], file, builder, textures));
     addNode(*scene, *scene->mRootNode, file, builder);

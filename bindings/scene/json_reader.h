@@ -36,9 +36,11 @@ public:
         if (!value_->is_array()) fail("an array");
         std::vector<JsonReader> all;
         all.reserve(value_->size());
-        for (std::size_t i = 0; i < value_->size(); ++i) all.push_back({file_, fmt::format("{}[{}]", place_, i), (*value_)[i]});
+        for (std::size_t i = 0; i < value_->size(); ++i) all.push_back(element(i));
         return all;
     }
+    // Of an array that has it.
+    JsonReader element(std::size_t index) const { return {file_, fmt::format("{}[{}]", place_, index), value_->at(index)}; }
     std::vector<std::string> keys() const {
         std::vector<std::string> all;
         for (const auto& item : object().items()) all.push_back(item.key());

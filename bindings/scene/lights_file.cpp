@@ -6,6 +6,7 @@
 
 #include "bindings/scene/file_bytes.h"
 #include "bindings/scene/json_reader.h"
+#include "bindings/scene/reach.h"
 #include "bindings/scene/scene_builder.h"
 
 namespace clv {
@@ -54,7 +55,11 @@ NamedLight readLight(const std::string& file, const JsonReader& source, std::siz
     else
         named.light = makeSpotLight(unitDirection(source["direction"]), intensity, float(source.number("innerConeAngle", 0.0)),
                                     float(source.number("outerConeAngle", kClvPi / 4.0)));
-    if (source.has("position")) named.light.position = glm::vec3(source["position"].vector() - anchor);
+    if (source.has("position")) {
+        const JsonReader position = source["position"];
+        checkReach(position.vector(), fmt::format("{}: {}", file, position.place()));
+        named.light.position = glm::vec3(position.vector() - anchor);
+    }
     checkLight(named.light, fmt::format("{}: {}", file, source.place()));
     return named;
 }

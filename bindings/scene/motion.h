@@ -37,6 +37,7 @@ struct CameraMotion {
 };
 
 struct Motion {
+    std::string file;                    // where it was read
     double fps = 60.0;                   // frames/s
     std::uint32_t lastFrame = 0;         // of all keys
     std::vector<LightMotion> lights;

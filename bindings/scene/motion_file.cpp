@@ -5,6 +5,7 @@
 #include "bindings/scene/file_bytes.h"
 #include "bindings/scene/json_reader.h"
 #include "bindings/scene/motion.h"
+#include "bindings/scene/reach.h"
 #include "bindings/scene/scene_builder.h"
 
 namespace clv {
@@ -39,6 +40,11 @@ glm::dvec3 finiteVector(const JsonReader& reader) {
     return v;
 }
 
+glm::dvec3 positionOf(const std::string& file, const JsonReader& reader) {
+    checkReach(reader.vector(), fmt::format("{}: {}", file, reader.place()));
+    return reader.vector();
+}
+
 std::size_t lightNamed(const JsonReader& name, const Scene& scene) {
     std::vector<std::size_t> found;
     std::string names;
@@ -58,7 +64,7 @@ LightMotion readLight(const std::string& file, const JsonReader& source, const S
     for (const auto& [frame, key] : framesOf(source, motion)) {
         checkMembers(key, {"frame", "position", "direction", "intensity"});
         ClvLight light = scene.lights[moving.light].light;
-        if (key.has("position")) moving.position.keys.emplace_back(frame, finiteVector(key["position"]));
+        if (key.has("position")) moving.position.keys.emplace_back(frame, positionOf(file, key["position"]));
         if (key.has("intensity")) {
             moving.intensity.keys.emplace_back(frame, key["intensity"].vector());
             light.intensity = glm::vec3(moving.intensity.keys.back().second);
@@ -73,13 +79,13 @@ LightMotion readLight(const std::string& file, const JsonReader& source, const S
     return moving;
 }
 
-CameraMotion readCamera(const JsonReader& source, Motion& motion) {
+CameraMotion readCamera(const std::string& file, const JsonReader& source, Motion& motion) {
     checkMembers(source, {"keys"});
     CameraMotion camera;
     for (const auto& [frame, key] : framesOf(source, motion)) {
         checkMembers(key, {"frame", "position", "target", "yfov"});
-        if (key.has("position")) camera.position.keys.emplace_back(frame, finiteVector(key["position"]));
-        if (key.has("target")) camera.target.keys.emplace_back(frame, finiteVector(key["target"]));
+        if (key.has("position")) camera.position.keys.emplace_back(frame, positionOf(file, key["position"]));
+        if (key.has("target")) camera.target.keys.emplace_back(frame, positionOf(file, key["target"]));
         if (key.has("yfov")) {
             const double yfov = key["yfov"].number();
             if (!(yfov > 0.0 && yfov < 3.14)) key["yfov"].fail("an angle in (0, 3.14)");
@@ -97,6 +103,7 @@ Motion loadMotion(const std::string& file, const Scene& scene) {
     if (root.has("objects")) root["objects"].fail("no objects: those that move are not available; lights and the camera are");
     checkMembers(root, {"fps", "lights", "camera"});
     Motion motion;
+    motion.file = file;
     motion.fps = root.number("fps", motion.fps);
     if (!(motion.fps > 0.0 && motion.fps <= 1e6)) root["fps"].fail("a number above 0 and at most 1e6");
     std::set<std::size_t> seen;
@@ -104,7 +111,7 @@ Motion loadMotion(const std::string& file, const Scene& scene) {
         motion.lights.push_back(readLight(file, light, scene, motion));
         if (!seen.insert(motion.lights.back().light).second) light["name"].fail("a light that is not listed before");
     }
-    if (root.has("camera")) motion.camera = readCamera(root["camera"], motion);
+    if (root.has("camera")) motion.camera = readCamera(file, root["camera"], motion);
     if (motion.lights.empty() && !motion.camera) root.fail("lights or a camera that move");
     return motion;
 }

@@ -63,6 +63,7 @@ struct Scene {
     std::vector<Camera> cameras;
     Bounds bounds;                               // of all triangles
     std::vector<std::string> ignored;            // features of the file that play no part here, a few words each
+    std::vector<std::string> warnings;           // of what may not be as it was meant, a line each
     std::size_t droppedTriangles = 0;            // zero-area triangles that were left out
 
     // Base colour at a point of a triangle, linear RGB in [0, 1]; barycentrics (u, v) belong to vertices 1 and 2.

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "bindings/scene/reach.h"
+
 namespace clv {
 namespace {
 
 constexpr double kFarScene = 1000.0;     // m: beyond it floats round coordinates to more than 0.1 mm
 constexpr double kFarInExtents = 4.0;    // an anchor pays only when the centre lies several extents away
-
-bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 struct DoubleBounds {
     glm::dvec3 lo{std::numeric_limits<double>::max()}, hi{std::numeric_limits<double>::lowest()};
@@ -80,11 +80,7 @@ void SceneBuilder::checkVertices(const std::string& source) const {
     for (std::size_t t = 0; t < scene_.triangles.size(); ++t)
         for (int corner = 0; corner < 3; ++corner) {
             std::uint32_t vertex = scene_.triangles[t][corner];
-            // Half of what a float holds, so that extents are finite too.
-            bool good = isFinite(positionsWorld_[vertex]) && glm::length(positionsWorld_[vertex]) < double(FLT_MAX) / 2;
-            if (!good)
-                throw InputError(fmt::format("{}: node '{}', vertex {}: expected a finite position", source,
-                                             scene_.nodeNames[scene_.nodeOf[t]], vertex));
+            checkReach(positionsWorld_[vertex], fmt::format("{}: node '{}', vertex {}", source, scene_.nodeNames[scene_.nodeOf[t]], vertex));
         }
 }
 
@@ -117,18 +113,23 @@ Scene SceneBuilder::finish(const std::string& source) && {
             bounds.lo = glm::min(bounds.lo, positionsWorld_[corners[corner]]);
             bounds.hi = glm::max(bounds.hi, positionsWorld_[corners[corner]]);
         }
+    const glm::dvec3 extent = bounds.hi - bounds.lo;
+    if (const double widest = std::max({extent.x, extent.y, extent.z}); widest > kWidestScene)
+        throw InputError(fmt::format("{}: expected a scene of at most {:g} m, found {:g}", source, kWidestScene, widest));
     scene_.anchor = chooseAnchor(bounds);
     scene_.positions.reserve(positionsWorld_.size());
     for (const glm::dvec3& position : positionsWorld_) scene_.positions.push_back(glm::vec3(position - scene_.anchor));
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         auto& [name, light] = scene_.lights[i];
+        const std::string place = fmt::format("{}: light '{}'", source, name);
+        checkReach(lightPositionsWorld_[i], place);
         light.position = glm::vec3(lightPositionsWorld_[i] - scene_.anchor);
-        checkLight(light, fmt::format("{}: light '{}'", source, name));
+        checkLight(light, place);
     }
     for (std::size_t i = 0; i < scene_.cameras.size(); ++i) {
         Camera& camera = scene_.cameras[i];
+        checkReach(cameraPositionsWorld_[i], fmt::format("{}: camera '{}'", source, camera.name));
         camera.position = glm::vec3(cameraPositionsWorld_[i] - scene_.anchor);
-        if (!isFinite(camera.position)) throw InputError(fmt::format("{}: camera '{}': expected a finite position", source, camera.name));
     }
     scene_.bounds = {glm::vec3(bounds.lo - scene_.anchor), glm::vec3(bounds.hi - scene_.anchor)};
 
@@ -182,7 +183,6 @@ void checkLight(const ClvLight& light, const std::string& place) {
     for (int channel = 0; channel < 3; ++channel)
         if (!(light.intensity[channel] >= 0.0f && std::isfinite(light.intensity[channel])))
             throw InputError(fmt::format("{}: intensity {} is not finite and >= 0", place, light.intensity[channel]));
-    if (!isFinite(light.position)) throw InputError(place + ": expected a finite position");
     if (light.type != kClvLightPoint && !(std::abs(glm::length(light.direction) - 1.0f) < 1e-3f))
         throw InputError(place + ": expected a direction that is not zero");
     if (light.type != kClvLightSpot) return;

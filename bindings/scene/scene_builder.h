@@ -34,6 +34,9 @@ public:
     // Says once that a feature of the file plays no part.
     void ignore(const std::string& feature);
 
+    // A line that names file and place.
+    void warn(const std::string& line) { scene_.warnings.push_back(line); }
+
     // Chooses the anchor, drops zero-area triangles and checks what is left. `source` begins the line of an error. Throws InputError.
     Scene finish(const std::string& source) &&;
 

@@ -25,7 +25,7 @@ void visit(Pipe& pipe, Value& value) {
         static_assert(std::is_same_v<Kind, Scene>);
         pipe(value.name), pipe(value.anchor), pipe(value.positions), pipe(value.uvs), pipe(value.triangles), pipe(value.materialOf), pipe(value.nodeOf);
         pipe(value.nodeNames), pipe(value.materials), pipe(value.textures), pipe(value.lights), pipe(value.cameras), pipe(value.bounds);
-        pipe(value.ignored), pipe(value.droppedTriangles);
+        pipe(value.ignored), pipe(value.warnings), pipe(value.droppedTriangles);
     }
 }
 

@@ -258,6 +258,7 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
     write("taken", "a file");
     const std::string motion = write("m.json", R"({"lights": [{"name": "lamp", "keys": [{"frame": 0}, {"frame": 1, "position": [0.3, 0.5, 0.3]}]}]})");
     const std::string sun = write("sun.json", R"({"lights": [{"name": "sun", "keys": [{"frame": 0}]}]})");
+    const std::string away = write("away.json", R"({"camera": {"keys": [{"frame": 0, "position": [0.28, 1e11, 0.1]}]}})");
     const std::vector<std::pair<Arguments, std::string>> cases = {
         {{"--out", file("V.vti")}, ".vtm"},
         {{"--out", file("V.vtm"), "--frames", "2"}, ".pvd"},
@@ -272,6 +273,7 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
         {{"--out", file("V.vtm"), "--motion", motion}, ".pvd"},
         {{"--out", file("V.pvd"), "--motion", sun, "--frames", "2"}, "sun.json: lights[0].name"},
         {{"--out", file("V.pvd"), "--motion", file("none.json")}, "none.json"},
+        {{"--out", file("V.vtm"), "--motion", away, "--cascades", "2", "--cell-size", "0.05"}, "away.json: frame 0: camera"},
         {{"--out", file("V.pvd"), "--motion", motion, "--bounces", "all"}, "--motion"},
         {{"--out", file("V.pvd"), "--motion", motion, "--seconds", "1"}, "--seconds"},
         {{"--out", file("V.pvd"), "--motion", motion, "--cell-shift", "0.5,0,0"}, "--cell-shift"},
@@ -284,7 +286,7 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
         EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     }
-    EXPECT_EQ(listing(), (Arguments{"lights.json", "m.json", "sun.json", "taken"}));
+    EXPECT_EQ(listing(), (Arguments{"away.json", "lights.json", "m.json", "sun.json", "taken"}));
 }
 
 TEST_F(Bake, anInterruptLeavesNoFile) {

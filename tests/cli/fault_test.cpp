@@ -24,21 +24,24 @@ struct Writes {
     Names outputs;
 };
 
-// While it lives, processes that are started may not make files larger than this.
-class SmallFiles {
+// While it lives, processes that are started have no more of a resource than this.
+template <__rlimit_resource resource>
+class Limit {
 public:
-    explicit SmallFiles(rlim_t mostBytes) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{mostBytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
+    explicit Limit(rlim_t most) {
+        getrlimit(resource, &before_);
+        const rlimit small{most, before_.rlim_max};
+        setrlimit(resource, &small);
     }
-    ~SmallFiles() { setrlimit(RLIMIT_FSIZE, &before_); }
-    SmallFiles(const SmallFiles&) = delete;
-    SmallFiles& operator=(const SmallFiles&) = delete;
+    ~Limit() { setrlimit(resource, &before_); }
+    Limit(const Limit&) = delete;
+    Limit& operator=(const Limit&) = delete;
 
 private:
     rlimit before_{};
 };
+using SmallFiles = Limit<RLIMIT_FSIZE>;  // bytes of a file
+using LittleMemory = Limit<RLIMIT_AS>;   // bytes of addresses
 
 class Faults : public TemporaryFolder {
 protected:
@@ -96,6 +99,21 @@ TEST_F(Faults, aFullDiskIsAFailureInOneLineAndLeavesNothing) {
         EXPECT_NE(result.err.find("cannot be written"), std::string::npos) << result.err;
         EXPECT_EQ(listing("out"), Names());
     }
+}
+
+TEST_F(Faults, memoryThatRunsOutIsAFailureInOneLineThatSaysWhatToLower) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers need more addresses than this";
+#endif
+    emptyOut();
+    std::optional<LittleMemory> limit(rlim_t(2) << 30);
+    RunningCommand running({"render", "--scene", "cornell", "--out", file("out"), "--width", "16384", "--height", "16384"});
+    limit.reset();
+    const CommandResult result = running.wait();
+    EXPECT_EQ(result.status, 1) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find("a smaller scene or picture"), std::string::npos) << result.err;
+    EXPECT_EQ(listing("out"), Names());
 }
 
 TEST_F(Faults, anInterruptAtAnyTimeLeavesAllOrNothing) {

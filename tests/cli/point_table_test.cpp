@@ -68,7 +68,8 @@ TEST_F(PointTableFile, refusalsNameTheFileTheLineAndWhatWasExpected) {
     EXPECT_EQ(complaint(kHeader + "nan,0,0,0,1,0\n"), p + ":2: column 1: expected a finite number, found \"nan\"");
     EXPECT_EQ(complaint(kHeader + "0,inf,0,0,1,0\n"), p + ":2: column 2: expected a finite number, found \"inf\"");
     EXPECT_EQ(complaint(kHeader + "0,,0,0,1,0\n"), p + ":2: column 2: expected a finite number, found \"\"");
-    EXPECT_EQ(complaint(kHeader + "1e39,0,0,0,1,0\n"), p + ":2: expected a position that fits a 32-bit float, m");
+    EXPECT_EQ(complaint(kHeader + "0,-1.1e12,0,0,1,0\n"), p + ":2: expected coordinates of at most 1e+12 m, found -1.1e+12");
+    EXPECT_EQ(complaint(kHeader + "0,-1e12,0,0,1,0\n"), "accepted");
     EXPECT_EQ(complaint(kHeader + good + good + "0,0,0,0,2,0\n"), p + ":4: expected a normal of unit length, found length 2");
     EXPECT_EQ(complaint(kHeader + "0,0,0,0,0,0\n"), p + ":2: expected a normal of unit length, found length 0");
     EXPECT_EQ(complaint(kHeader + "0,0,0,1e200,0,0\n"), p + ":2: expected a normal of unit length, found length inf");

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bindings/scene/file_bytes.h"
+#include "bindings/scene/glb_container.h"
 #include "cli/run_command.h"
 #include "support/temporary_folder.h"
 
@@ -16,8 +18,9 @@ using Arguments = std::vector<std::string>;
 class Render : public TemporaryFolder {
 protected:
     CommandResult render(const Arguments& more) const {
-        Arguments all = {"render", "--scene", "cornell", "--width", "48", "--rays", "64k", "--samples", "4", "--error-samples", "64", "--out", file("out")};
+        Arguments all = {"render", "--width", "48", "--rays", "64k", "--samples", "4", "--error-samples", "64", "--out", file("out")};
         all.insert(all.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "--scene") == more.end()) all.insert(all.end(), {"--scene", "cornell"});
         return runCommand(all);
     }
 };
@@ -55,6 +58,21 @@ TEST_F(Render, aCameraThatDoesNotExistIsRefusedAndNothingIsWritten) {
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
     EXPECT_NE(result.err.find("balcony"), std::string::npos);
     EXPECT_TRUE(listing().empty());
+}
+
+TEST_F(Render, aPictureWhoseHeightFollowsFromTheFileStaysWithinTheLimits) {
+    ASSERT_EQ(runCommand({"scenes", "--write", file("cornell.glb")}).status, 0);
+    GlbParts parts = unpackGlb("cornell.glb", readFileBytes(file("cornell.glb")));
+    for (const double aspect : {1e-4, 1e-44, 1e38}) {
+        for (json& camera : parts.document["cameras"]) camera["perspective"]["aspectRatio"] = aspect;
+        writeFileBytes(file("slender.glb"), packGlb(parts.document, *parts.binary));
+        const CommandResult result = render({"--scene", file("slender.glb")});
+        EXPECT_EQ(result.status, 2);
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find("slender.glb: camera"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find("1 to 16384 rows"), std::string::npos) << result.err;
+        EXPECT_EQ(listing(), (Arguments{"cornell.glb", "slender.glb"}));
+    }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Exit statuses and the one line that goes with a failure.
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
@@ -56,7 +56,8 @@ TEST_F(Usage, badUsageIsRefusedInOneLine) {
     expectRefused({"irradiance", "--scene", "cornell"}, {"clv irradiance", "--points"});
     expectRefused(call("irradiance", {"--wrong"}), {"--wrong"});
     expectRefused(call("reference", {"--threads", "-1"}), {"--threads"});
-    expectRefused(call("reference", {"--seed", "-1"}), {"--seed"});
+    expectRefused(call("reference", {"--seed", "-1"}), {"--seed", "4294967295"});
+    expectRefused({"report", "--out", file("out"), "--truth-samples", "-1"}, {"--truth-samples", "1099511627776"});
     expectRefused(call("reference", {"--backend", "metal"}), {"--backend"});
     expectRefused(call("reference", {"--bounces", "two"}), {"--bounces"});
     expectRefused(call("reference", {"--samples", "16", "--seconds", "1"}), {"--samples", "--seconds"});
@@ -94,11 +95,37 @@ TEST_F(Usage, aPlaceThatCannotBeWrittenIsRefused) {
     expectRefused({"reference", "--scene", "cornell", "--points", points_, "--out", file("missing/r.csv")}, {"missing", "can be written"});
     expectRefused({"scenes", "--write", points_ + "/cornell.glb"}, {"p.csv", "can be written"});
     expectRefused({"render", "--scene", "cornell", "--out", points_}, {"p.csv"});
+    const std::string tooLong(300, 'n');
+    expectRefused({"reference", "--scene", "cornell", "--points", points_, "--out", file(tooLong)}, {tooLong, "expected the name of a file"});
+    expectRefused({"reference", "--scene", "cornell", "--points", points_, "--out", file(tooLong + "/r.csv")}, {tooLong, "expected"});
+    expectRefused({"render", "--scene", "cornell", "--out", file(tooLong)}, {tooLong, "expected the name of a file"});
+    expectRefused({"bake", "--scene", "cornell", "--out", file(tooLong + ".vtm")}, {tooLong, "expected the name of a file"});
 }
 
 TEST_F(Usage, anOutputThatCannotBePrintedIsAFailureAtRunTime) {
     const int status = std::system(CLV_BINARY_DIR "/clv info > /dev/full 2> /dev/null");
     EXPECT_EQ(WEXITSTATUS(status), 1);
+}
+
+TEST_F(Usage, anErrorOrAWarningThatCannotBePrintedKeepsTheExitStatus) {
+    const auto statusOf = [](const std::string& call) { return WEXITSTATUS(std::system((CLV_BINARY_DIR "/clv " + call).c_str())); };
+    const std::string warned = "irradiance --scene cornell --rays 4k --backend auto --device none --points " + points_ + " --out " + file("r.csv") + " > /dev/null ";
+    for (const char* nowhere : {"2> /dev/full", "2>&-", "2>&- <&-"}) {
+        EXPECT_EQ(statusOf(std::string("nope ") + nowhere), 2) << nowhere;
+        EXPECT_EQ(statusOf(warned + nowhere), 0) << nowhere;
+        EXPECT_TRUE(std::filesystem::remove(file("r.csv"))) << nowhere;
+    }
+    EXPECT_EQ(statusOf("scenes --write " + file("cornell.glb") + " > /dev/null <&-"), 0);
+    EXPECT_EQ(statusOf("plan --scene " + file("cornell.glb") + " <&- >&- 2> /dev/null"), 1) << "a plan that cannot be printed";
+    // Into a pipe that nobody reads any more.
+    std::system(("{ sleep 0.2; " CLV_BINARY_DIR "/clv nope; echo $? > " + file("status") + "; } 2>&1 | true").c_str());
+    for (int k = 0; k < 100 && !std::filesystem::exists(file("status")); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(read(file("status")), "2\n");
+}
+
+TEST_F(Usage, controlCharactersInInputAreShownNotSent) {
+    expectRefused({"reference", "--scene", "cornell", "--points", write("esc.csv", "px,py,pz,nx,ny,nz\n\x1b[2J,0,0,0,1,0\n"), "--out", file("r.csv")}, {"esc.csv:2", "\\x1b[2J"});
+    expectRefused(call("reference", {"--lights", write("l.json", R"({"lights": [], "a\rb\u007f": 1})")}), {"l.json", "a\\x0db\\x7f"});
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ const Damage kDamages[] = {
     {"documentIsAnArray", [](TestGltf& g) { g.document = json::array(); }, "expected an object"},
     {"bufferTooLong", [](TestGltf& g) { g.document["buffers"][0]["byteLength"] = 67000; }, "buffers[0]: expected 67000 bytes"},
     {"bufferFileMissing", [](TestGltf& g) { g.document["buffers"][0]["uri"] = "gone.bin"; }, "gone.bin"},
+    {"bufferNameTooLong", [](TestGltf& g) { g.document["buffers"][0]["uri"] = std::string(300, 'b'); }, "buffers[0].uri: expected a file"},
     {"bufferNotBase64", [](TestGltf& g) { g.document["buffers"][0]["uri"] = "data:x;base64,#"; }, "buffers[0].uri: expected base64"},
     {"viewBeyondBuffer", [](TestGltf& g) { g.document["bufferViews"][1]["byteOffset"] = 60; }, "bufferViews[1]"},
     {"viewOffsetOverflows", [](TestGltf& g) { g.document["bufferViews"][1]["byteOffset"] = 18446744073709551610ull; }, "bufferViews[1].byteOffset"},
@@ -70,12 +71,16 @@ const Damage kDamages[] = {
     {"sceneMissing", [](TestGltf& g) { g.document["scene"] = 1; }, "scene: expected"},
     {"positionNotANumber", [](TestGltf& g) { overwrite(g, 12, std::numeric_limits<float>::quiet_NaN()); }, "mesh 'sheet' to have a finite position at vertex 1"},
     {"positionInfinite", [](TestGltf& g) { overwrite(g, 24, std::numeric_limits<float>::infinity()); }, "vertex 2"},
-    {"transformOverflows", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {1e300, 1, 1}; }, "vertex 1"},
+    {"transformOverflows", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {1e300, 1, 1}; }, "node 'leaf', vertex 1: expected coordinates of at most 1e+12 m"},
+    {"sceneFarOut", [](TestGltf& g) { g.document["nodes"][0]["translation"] = {0, 1.1e12, 0}; }, "vertex 0: expected coordinates of at most 1e+12 m"},
+    {"sceneTooWide", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {1, 1.1e9, 1}; }, "expected a scene of at most 1e+09 m, found 1.1e+09"},
     {"allDegenerate", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {0, 1, 1}; }, "zero area"},
     {"nodeIsItsOwnParent", [](TestGltf& g) { g.document["nodes"][0]["children"] = {0}; }, "nodes[0]: expected at most"},
     {"nodeHasTwoParents", [](TestGltf& g) { g.document["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}}; }, "nodes[0].children[1]"},
     {"childMissing", [](TestGltf& g) { g.document["nodes"][0]["children"] = {5}; }, "nodes[0].children[0]"},
     {"matrixTooShort", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 2, 3}; }, "nodes[0].matrix: expected 16 numbers"},
+    {"matrixProjects", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, "nodes[0].matrix: expected a last row of 0, 0, 0, 1"},
+    {"rotationTooLong", [](TestGltf& g) { g.document["nodes"][0]["rotation"] = {1e200, 0, 0, 0}; }, "nodes[0].rotation: expected a quaternion"},
     {"rotationZero", [](TestGltf& g) { g.document["nodes"][0]["rotation"] = {0, 0, 0, 0}; }, "nodes[0].rotation"},
     {"translationOfText", [](TestGltf& g) { g.document["nodes"][0]["translation"] = {"a", 0, 0}; }, "nodes[0].translation[0]: expected a number"},
     {"albedoAboveOne", [](TestGltf& g) { pbr(g)["baseColorFactor"] = {0.5, 1.5, 0.5, 1}; }, "'paint'"},
@@ -101,13 +106,14 @@ const Damage kDamages[] = {
     {"coneNegative", [](TestGltf& g) { light(g)["spot"] = {{"innerConeAngle", -0.1}}; }, "light 'bulb': cone angles"},
     {"spotMissing", [](TestGltf& g) { light(g).erase("spot"); }, "lights[0]: expected a member 'spot'"},
     {"lightSquashed", [](TestGltf& g) { light(g); g.document["nodes"][1]["scale"] = {1, 1, 0}; }, "nodes[1]"},
-    {"lightFarOut", [](TestGltf& g) { light(g); g.document["nodes"][1]["translation"] = {1e200, 0, 0}; }, "light 'bulb': expected a finite position"},
+    {"lightFarOut", [](TestGltf& g) { light(g); g.document["nodes"][1]["translation"] = {1e200, 0, 0}; }, "light 'bulb': expected coordinates of at most 1e+12 m"},
     {"cameraFarOut", [](TestGltf& g) {
          camera(g);
          g.document["nodes"].push_back({{"name", "eye"}, {"camera", 0}, {"translation", {0, 1e200, 0}}});
          g.document["scenes"][0]["nodes"] = {0, 1};
-     }, "camera 'eye': expected a finite position"},
+     }, "camera 'eye': expected coordinates of at most 1e+12 m"},
     {"cameraTooWide", [](TestGltf& g) { camera(g)["yfov"] = 3.2; }, "perspective.yfov"},
+    {"cameraEndless", [](TestGltf& g) { camera(g)["aspectRatio"] = 1e308; }, "perspective.aspectRatio: expected a positive number that fits a float"},
     {"cameraFlat", [](TestGltf& g) { camera(g)["aspectRatio"] = 0; }, "perspective.aspectRatio"},
 };
 

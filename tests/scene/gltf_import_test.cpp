@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ctime>
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
@@ -261,6 +262,47 @@ TEST_F(GltfImport, saysWhatItIgnores) {
     const std::vector<std::string> expected = {"extension KHR_materials_transmission", "extension ACME_shine", "animations", "skins", "normal maps",
                                                "emissive light", "transparency (every face is opaque)", "morph targets"};
     EXPECT_EQ(load(gltf).ignored, expected);
+}
+
+TEST_F(GltfImport, takesFourTimesAsLongForFourTimesAsManyMeshes) {
+    const auto secondsFor = [&](int count) {
+        TestGltf gltf = triangleGltf();
+        for (const char* list : {"accessors", "bufferViews"}) {
+            const json last = gltf.document[list][2];
+            for (int i = 1; i < count; ++i) gltf.document[list].push_back(last);
+        }
+        for (int i = 1; i < count; ++i) {
+            gltf.document["accessors"][2 + i]["bufferView"] = 2 + i;
+            gltf.document["meshes"].push_back(gltf.document["meshes"][0]);
+            gltf.document["meshes"][i]["primitives"][0]["indices"] = 2 + i;
+            gltf.document["nodes"].push_back({{"mesh", i}});
+            gltf.document["scenes"][0]["nodes"].push_back(i);
+        }
+        const std::string file = writeGltf(gltf);
+        const std::clock_t begin = std::clock();
+        EXPECT_EQ(loadScene(file).triangles.size(), std::size_t(count));
+        return double(std::clock() - begin) / CLOCKS_PER_SEC;
+    };
+    // Sixteen times where each mesh looks at all the others.
+    EXPECT_LT(secondsFor(8000), 8.0 * secondsFor(2000));
+}
+
+TEST_F(GltfImport, aPointLightNeedsNoDirection) {
+    TestGltf gltf = triangleGltf();
+    gltf.document["nodes"].push_back({{"scale", {0, 0, 0}}, {"translation", {1, 2, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    gltf.document["scenes"][0]["nodes"] = {0, 1};
+    gltf.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    EXPECT_EQ(load(gltf).lights.at(0).light.position, glm::vec3(1, 2, 3));
+}
+
+TEST_F(GltfImport, aCameraWithoutADirectionIsLeftOutWithAWarning) {
+    TestGltf gltf = triangleGltf();
+    gltf.document["nodes"].push_back({{"scale", {1, 0, 0}}, {"camera", 0}});
+    gltf.document["scenes"][0]["nodes"] = {0, 1};
+    gltf.document["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}}}}};
+    const Scene scene = load(gltf);
+    EXPECT_TRUE(scene.cameras.empty());
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("test.glb") + ": nodes[1]: its camera has no direction and is left out"});
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ protected:
 TEST(SceneBytes, keepEveryMember) {
     for (const BuiltinScene& builtin : builtinScenes()) {
         Scene scene = makeBuiltinScene(builtin.name);
-        scene.ignored = {"morph targets"}, scene.droppedTriangles = 7, scene.anchor = glm::dvec3(1e7, 2.0, -3.0);
+        scene.ignored = {"morph targets"}, scene.warnings = {"a.obj:2: no material"}, scene.droppedTriangles = 7, scene.anchor = glm::dvec3(1e7, 2.0, -3.0);
         const Scene read = throughPipe(scene);
         EXPECT_EQ(read.name, scene.name);
         EXPECT_EQ(read.anchor, scene.anchor);
@@ -89,6 +89,7 @@ TEST(SceneBytes, keepEveryMember) {
         EXPECT_EQ(read.bounds.lo, scene.bounds.lo);
         EXPECT_EQ(read.bounds.hi, scene.bounds.hi);
         EXPECT_EQ(read.ignored, scene.ignored);
+        EXPECT_EQ(read.warnings, scene.warnings);
         EXPECT_EQ(read.droppedTriangles, scene.droppedTriangles);
     }
 }
@@ -101,7 +102,7 @@ TEST_F(Importer, readsWhatThisProcessReads) {
 
 TEST_F(Importer, passesOnWhatIsWrongWithAFile) {
     const std::string bad = write("bad.obj", "v 0 0 nan\n");
-    EXPECT_EQ(complaint(bad), bad + ":1: expected a vertex of three finite numbers");
+    EXPECT_EQ(complaint(bad), bad + ":1: expected a vertex of 3, 4 or 6 finite numbers such as 0.5 or -1e3, not 'nan'");
     EXPECT_EQ(complaint(file("missing.glb")), file("missing.glb") + ": no such file");
 }
 

@@ -65,7 +65,7 @@ TEST_F(LightsFile, everyMistakeIsNamedWithItsPlace) {
         {R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "outerConeAngle": 1}]})", "'outerConeAngle'"},
         {R"({"lights": [{"type": "point", "position": [0,0], "intensity": [1,1,1]}]})", "lights[0].position: expected 3 numbers"},
         {R"({"lights": [{"type": "point", "position": [0,0,"a"], "intensity": [1,1,1]}]})", "lights[0].position[2]: expected a number"},
-        {R"({"lights": [{"type": "point", "position": [0,0,1e39], "intensity": [1,1,1]}]})", "lights[0]: expected a finite position"},
+        {R"({"lights": [{"type": "point", "position": [0,0,1.1e12], "intensity": [1,1,1]}]})", "lights[0].position: expected coordinates of at most 1e+12 m"},
         {R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,-1,1]}]})", "lights[0]: intensity -1"},
         {R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,1e39,1]}]})", "lights[0]: intensity inf"},
         {R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,1e999,1]}]})", "fit into a double"},

@@ -25,6 +25,7 @@ TEST_F(ObjImport, countsNegativeIndicesBackwards) {
 
 TEST_F(ObjImport, readsFacesThatGoOnInTheNextLine) {
     EXPECT_EQ(loadScene(write("square.obj", kSquare + "f 1 2 \\\n3 4\n")).triangles.size(), 2u);
+    EXPECT_EQ(loadScene(write("square.obj", kSquare + "f 1 2 3 4 \\")).triangles.size(), 2u);
 }
 
 TEST_F(ObjImport, takesKdAsLinearAlbedoAndReadsItsTexture) {
@@ -40,6 +41,38 @@ TEST_F(ObjImport, takesKdAsLinearAlbedoAndReadsItsTexture) {
     EXPECT_LT(glm::distance(scene.albedo(1, 0.0f, 0.75f), glm::vec3(0.5f, 0, 0)), 1e-4f);
 }
 
+// The albedo of a square's face with the material `half` of half.mtl, as this text says it.
+class ObjMaterial : public GltfFiles {
+protected:
+    glm::vec3 albedoOf(const std::string& obj, const std::string& mtl = "newmtl half\nKd 0.5 0.5 0.5\n") const {
+        write("half.mtl", mtl);
+        return loadScene(write("square.obj", obj)).albedo(0, 0.3f, 0.3f);
+    }
+    const glm::vec3 half_{0.5f};
+};
+
+TEST_F(ObjMaterial, isFoundBehindAByteOrderMarkAndBlanksAndWithAnyLineEnds) {
+    const std::string whole = "mtllib half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n";
+    const auto with = [](std::string text, const std::string& end, const std::string& indent = "") {
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += end.size() + indent.size()) text.replace(at, 1, end + indent);
+        return text;
+    };
+    EXPECT_EQ(albedoOf(whole), half_);
+    EXPECT_EQ(albedoOf("\xef\xbb\xbf" + whole, "\xef\xbb\xbfnewmtl half\nKd 0.5 0.5 0.5\n"), half_);
+    EXPECT_EQ(albedoOf(with(whole, " \t\n"), "newmtl half \nKd 0.5 0.5 0.5 \n"), half_);
+    EXPECT_EQ(albedoOf(with(whole, "\n", "  ")), half_);
+    EXPECT_EQ(albedoOf(with(whole, "\r\n")), half_);
+    EXPECT_EQ(albedoOf(with(whole, "\r")), half_);
+    EXPECT_EQ(albedoOf("mtllib half.mtl\nv 0 0 0 # first\nv 1 0 0\nv 1 1 0\nusemtl half\nf 1 2 3 # face 4\n"), half_);
+}
+
+TEST_F(ObjMaterial, thatNoLibraryHasIsAWarningWithItsLine) {
+    write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
+    const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "usemtl nope\nf 1 2 3\nusemtl half\nf 1 3 4\nusemtl nope\nf 1 2 4\n"));
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("square.obj") + ":6: no library has the material 'nope': its faces have an albedo of 0.6"});
+    EXPECT_EQ(scene.albedo(0, 0.3f, 0.3f), glm::vec3(0.6f));
+}
+
 struct Damage {
     const char* name;
     std::string text;
@@ -50,9 +83,10 @@ class DamagedObj : public GltfFiles, public ::testing::WithParamInterface<Damage
 
 TEST_P(DamagedObj, isOneLineThatNamesFileAndPlace) {
     write("bright.mtl", "newmtl bright\nKd 0.5 2 0.5\n");
+    write("grey.mtl", "newmtl grey\nKd 0.5\n");
     write("tiles.mtl", "newmtl tiles\nmap_Kd gone.png\n");
     const std::string error = errorOf(write("damaged.obj", GetParam().text));
-    EXPECT_EQ(error.rfind(file("damaged.obj"), 0), 0u) << error;
+    EXPECT_EQ(error.rfind(file(""), 0), 0u) << error;
     EXPECT_NE(error.find(GetParam().place), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
@@ -62,8 +96,18 @@ const Damage kDamages[] = {
     {"verticesOnly", kSquare, "no faces"},
     {"vertexNotANumber", "v 0 0 nan\n" + kSquare + "f 1 2 3\n", ":1: expected a vertex"},
     {"vertexInfinite", kSquare + "v 0 1e999 0\nf 1 2 3\n", ":5: expected a vertex"},
+    {"vertexFarOut", kSquare + "v 0 1e30 0\nf 1 2 5\n", "vertex 2: expected coordinates of at most 1e+12 m"},
     {"vertexOfTwoNumbers", "v 0 0\n" + kSquare + "f 1 2 3\n", ":1: expected a vertex"},
     {"vertexOfText", kSquare + "v a b c\nf 1 2 3\n", ":5: expected a vertex"},
+    {"vertexHexadecimal", kSquare + "v 0x1p-1 0 0\nf 1 2 3\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
+    {"vertexWithoutLeadingZero", kSquare + "v .5 0 0\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
+    {"vertexOfTooManyDigits", kSquare + "v 123456789012345678901234 0 0\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
+    {"vertexOfFiveNumbers", kSquare + "v 0 0 0 1 1\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
+    {"vertexWithoutWeight", kSquare + "v 0 0 0 0\nf 1 2 5\n", ":5: expected a weight"},
+    {"textureCoordinateHexadecimal", kSquare + "vt 0x1p-1 0\nf 1 2 3\n", ":5: expected texture coordinates"},
+    {"controlCharacter", kSquare + "v 0 0\f0\nf 1 2 3\n", ":5: expected text"},
+    {"albedoOfOneNumber", "mtllib grey.mtl\n" + kSquare + "usemtl grey\nf 1 2 3\n", "grey.mtl:2: expected an albedo of 3 numbers"},
+    {"libraryNameTooLong", "mtllib " + std::string(300, 'm') + "\n" + kSquare + "f 1 2 3\n", ":1: expected a material library"},
     {"cornerBeyondVertices", kSquare + "f 1 2 5\n", ":5: expected corners among the 4 vertices"},
     {"cornerZero", kSquare + "f 0 1 2\n", ":5: expected corners"},
     {"cornerBeforeTheFirst", kSquare + "f -5 1 2\n", ":5: expected corners"},

@@ -1,0 +1,51 @@
+#include "bindings/scene/obj_text.h"
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bindings/scene/file_bytes.h"
+#include "bindings/scene/scene.h"
+
+namespace clv {
+namespace {
+
+std::string_view trimmed(std::string_view line) {
+    if (line.starts_with('v') || line.starts_with('f')) line = line.substr(0, line.find('#'));
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return line.substr(first, line.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+std::string readObjText(const std::string& file) {
+    const std::vector<std::uint8_t> bytes = readFileBytes(file);
+    std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
+    std::string text, line, blankLines;
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+        // Lines end in \n, \r\n or, in old files, in \r.
+        const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+        std::string_view piece = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1), rest.size()));
+        for (const char c : piece)
+            if (c != '\t' && static_cast<unsigned char>(c) < 0x20) throw InputError(fmt::format("{}:{}: expected text, not control characters", file, number));
+        const bool goesOn = piece.ends_with('\\');
+        if (goesOn) piece.remove_suffix(1);
+        line += piece;
+        blankLines += '\n';
+        if (goesOn && !rest.empty()) {
+            line += ' ';
+            continue;
+        }
+        text += trimmed(line);
+        text += blankLines;
+        line.clear();
+        blankLines.clear();
+    }
+    return text;
+}
+
+}  // namespace clv
