@@ -1,5 +1,6 @@
 # Lists what a test program has for ctest: a suite at a time, since a program takes longer to load than most of its tests to run.
-# Tests of a file in which some may be skipped are listed one by one, so that ctest says which were.
+# Tests of a file in which some may be skipped are listed one by one, so that ctest says which were. Suites that use a window's mouse, named
+# ...Window, run by themselves: clicks come at their time, whether the picture is ready or not.
 #   cmake -D program=... -D folder=... -D properties=... -D output=... -P discover_tests.cmake
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${program} --gtest_list_tests --gtest_output=json:${output}.json OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
@@ -36,7 +37,11 @@ foreach(s RANGE ${lastSuite})
         endforeach()
     else()
         set(filter "${suite}.*")
-        add(${suite})
+        if(suite MATCHES "Window$")
+            add(${suite} "PROCESSORS 2")
+        else()
+            add(${suite})
+        endif()
     endif()
 endforeach()
 file(WRITE ${output} "${script}")

@@ -54,7 +54,7 @@ struct NotANumber {
     explicit NotANumber(Words&&...) {}
 };
 
-// Nothing for what is no number, and for what assimp reads otherwise: of `.5` it says that it is none, of `0x10` that it is 0.
+// Nothing for what is no number, and for what assimp reads otherwise: of `0x10` it says that it is 0.
 std::optional<double> number(const std::string& word) {
     constexpr double kMisread = 1e-5;
     char* end = nullptr;

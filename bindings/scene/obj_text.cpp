@@ -18,6 +18,16 @@ std::string_view trimmed(std::string_view line) {
     return line.substr(first, line.find_last_not_of(" \t") - first + 1);
 }
 
+// Appends the line; assimp takes no number that begins with its point.
+void append(std::string_view line, std::string& text) {
+    const bool hasNumbers = line.starts_with('v') || line.starts_with('K');
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool begins = i > 0 && (line[i - 1] == ' ' || line[i - 1] == '\t');
+        if (hasNumbers && begins && line[i] == '.') text += '0';
+        text += line[i];
+    }
+}
+
 }  // namespace
 
 std::string readObjText(const std::string& file) {
@@ -40,7 +50,7 @@ std::string readObjText(const std::string& file) {
             line += ' ';
             continue;
         }
-        text += trimmed(line);
+        append(trimmed(line), text);
         text += blankLines;
         line.clear();
         blankLines.clear();

@@ -66,6 +66,14 @@ TEST_F(ObjMaterial, isFoundBehindAByteOrderMarkAndBlanksAndWithAnyLineEnds) {
     EXPECT_EQ(albedoOf("mtllib half.mtl\nv 0 0 0 # first\nv 1 0 0\nv 1 1 0\nusemtl half\nf 1 2 3 # face 4\n"), half_);
 }
 
+TEST_F(ObjMaterial, numbersMayBeginWithTheirPoint) {
+    EXPECT_EQ(albedoOf("mtllib half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n", "newmtl half\nKd .5 0.5 .5\n"), half_);
+    const Scene scene = loadScene(write("points.obj", "v .5 -.25 0\nv 1 0 0\nv 1 +.75 .125\nf 1 2 3\n"));
+    ASSERT_EQ(scene.positions.size(), 3u);
+    EXPECT_EQ(scene.positions[0], glm::vec3(0.5f, -0.25f, 0.0f));
+    EXPECT_EQ(scene.positions[2], glm::vec3(1.0f, 0.75f, 0.125f));
+}
+
 TEST_F(ObjMaterial, thatNoLibraryHasIsAWarningWithItsLine) {
     write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
     const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "usemtl nope\nf 1 2 3\nusemtl half\nf 1 3 4\nusemtl nope\nf 1 2 4\n"));
@@ -100,7 +108,6 @@ const Damage kDamages[] = {
     {"vertexOfTwoNumbers", "v 0 0\n" + kSquare + "f 1 2 3\n", ":1: expected a vertex"},
     {"vertexOfText", kSquare + "v a b c\nf 1 2 3\n", ":5: expected a vertex"},
     {"vertexHexadecimal", kSquare + "v 0x1p-1 0 0\nf 1 2 3\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
-    {"vertexWithoutLeadingZero", kSquare + "v .5 0 0\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
     {"vertexOfTooManyDigits", kSquare + "v 123456789012345678901234 0 0\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
     {"vertexOfFiveNumbers", kSquare + "v 0 0 0 1 1\nf 1 2 5\n", ":5: expected a vertex of 3, 4 or 6 finite numbers"},
     {"vertexWithoutWeight", kSquare + "v 0 0 0 0\nf 1 2 5\n", ":5: expected a weight"},
