@@ -25,11 +25,11 @@ MovingLightOptions optionsOf(const World& world, const LiveSettings& live, const
 
 LiveLight::LiveLight(const World& world, const LiveSettings& settings, const Camera& camera, const ParallelFor& parallelFor)
     : world_(world), settings_(settings), light_(world.embree(), optionsOf(world, settings, camera), parallelFor) {
-    if (settings.cascades == 0) light_.moveTo({.position = glm::dvec3(world.scene().bounds.center()) + world.scene().anchor});
+    if (settings.cascades == 0) light_.moveTo({.position = glm::dvec3(world.scene().bounds.center()) + world.scene().anchor}, world.scene().name);
 }
 
 void LiveLight::frame(float timestep, const Camera& camera, BakedVolume& volume) {
-    if (settings_.cascades > 0) light_.moveTo(viewOf(world_.scene(), camera));
+    if (settings_.cascades > 0) light_.moveTo(viewOf(world_.scene(), camera), world_.scene().name);
     light_.frame(timestep);
     volume.layout = light_.layout();
     volume.lights = world_.scene().lights;

@@ -131,13 +131,17 @@ private:
     struct Fall : ErrorFall {
         bool floorShows = false;  // the most rays leave less noise than floor
     };
-    // Of the curve with the most points.
+    // Of the curve that goes on to the most rays.
     std::optional<Fall> fallOf(const std::string& resolution) const {
         Curve longest;
+        std::uint64_t mostRays = 0;
         for (const Curve& curve : curvesOf(all_, scene_)) {
             const Measurement& m = *curve.points.front();
             const bool fits = m.method == kLibraryName && !m.wholePicture && settingOf(m, "resolution") == resolution && settingOf(m, "storage") == "cube9" && settingOf(m, "readers") == "surfaces";
-            if (fits && curve.points.size() > longest.points.size()) longest = curve;
+            if (!fits) continue;
+            for (const Measurement* point : curve.points) {
+                if (point->raysTraced > mostRays) mostRays = point->raysTraced, longest = curve;
+            }
         }
         std::vector<double> rays, errors;
         for (const Measurement* m : longest.points) rays.push_back(double(m->raysTraced)), errors.push_back(m->errors.relativeRmse);

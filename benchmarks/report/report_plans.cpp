@@ -94,6 +94,12 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
     const std::vector<int> frames = {1, 4, 16, 64}, fewFrames = {1, 4}, merged = {4, 16, 64};
     plan.cases = {lightVolume({}, rays), lightVolume({.guided = false}, rays), lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, rays)};
     for (const int resolution : {8, 16, 32}) plan.cases.push_back(lightVolume(quickToRead(resolution), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
+    for (const int resolution : {8, 16}) {
+        LightVolumeSettings everywhere = quickToRead(resolution);
+        everywhere.readers = Readers::anywhere;
+        plan.cases.push_back(lightVolume(everywhere, {2 * kThousand, 8 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
+    }
+    plan.cases.push_back(lightVolume({.resolution = 16, .readers = Readers::anywhere, .guided = false}, {16 * kThousand, 64 * kThousand}, frames));
     for (const int resolution : {16, 32, 64, 128}) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
     for (const int resolution : {16, 32, 64}) {
         plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, merged));
