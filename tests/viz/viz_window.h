@@ -13,11 +13,11 @@ inline int doToWindow(const std::string& what) { return std::system(("xdotool " 
 class VizWindow : public VizCommand {
 protected:
     VizWindow() { unsetenv("DISPLAY"); }
-    // A window that VTK has drawn takes events in their order, however long each takes.
+    // A window that VTK has drawn takes events in their order, however long each takes; one that is merely there may lose them.
     void open(const std::vector<std::string>& arguments) {
         display_.emplace();
         viz_.emplace(arguments, false, kProgram);
-        ASSERT_EQ(doToWindow("search --sync --onlyvisible --name clv-viz windowfocus --sync"), 0);
+        ASSERT_EQ(doToWindow("search --sync --onlyvisible --name clv-viz windowfocus --sync sleep 1"), 0);
     }
     CommandResult close() {
         EXPECT_EQ(doToWindow("key q"), 0);
