@@ -63,12 +63,8 @@ std::vector<ShownCell> cellsCutBy(const BakedVolume& volume, const SlicePlane& p
 }
 
 std::vector<ShownCell> cellsOf(const BakedVolume& volume, const View& view, const ParallelFor& parallelFor) {
+    if (showsCubes(view) || carrierOf(view) != Carrier::slices) return shownCells(volume, view.cascade, parallelFor, showsCubes(view) ? view.threshold : 0.0f);
     std::vector<ShownCell> cells;
-    if (showsCubes(view) || carrierOf(view) != Carrier::slices) {
-        cells = shownCells(volume, view.cascade, parallelFor);
-        if (showsCubes(view)) leaveOutDim(view, cells);
-        return cells;
-    }
     for (const SlicePlane& plane : view.slices) {
         const std::vector<ShownCell> cut = cellsCutBy(volume, plane, view.cascade);
         cells.insert(cells.end(), cut.begin(), cut.end());

@@ -56,7 +56,7 @@ std::optional<ShownCell> shownCell(const BakedVolume& volume, uint cascade, cons
     return shown;
 }
 
-std::vector<ShownCell> shownCells(const BakedVolume& volume, ShownCascade only, const ParallelFor& parallelFor) {
+std::vector<ShownCell> shownCells(const BakedVolume& volume, ShownCascade only, const ParallelFor& parallelFor, float threshold) {
     std::vector<ShownCell> all;
     for (uint cascade = 0; cascade < volume.cascades.size(); ++cascade) {
         const ivec3 resolution = volume.cascades[cascade].level.volume.resolution;
@@ -64,7 +64,8 @@ std::vector<ShownCell> shownCells(const BakedVolume& volume, ShownCascade only, 
         parallelFor(slices.size(), [&](std::size_t z) {
             for (int y = 0; y < resolution.y; ++y) {
                 for (int x = 0; x < resolution.x; ++x) {
-                    if (const auto shown = shownCell(volume, cascade, ivec3(x, y, int(z)), only)) slices[z].push_back(*shown);
+                    const auto shown = shownCell(volume, cascade, ivec3(x, y, int(z)), only);
+                    if (shown && brightest(shown->light) >= threshold) slices[z].push_back(*shown);
                 }
             }
         });

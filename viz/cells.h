@@ -34,8 +34,8 @@ struct ShownCell {
 
 // What a view shows of a cell: of one that is open, however dark; nothing of a solid one, or where another cascade is shown.
 std::optional<ShownCell> shownCell(const BakedVolume& volume, uint cascade, const ivec3& cell, ShownCascade only);
-// All of them, cascade by cascade, x fastest.
-std::vector<ShownCell> shownCells(const BakedVolume& volume, ShownCascade only, const ParallelFor& parallelFor);
+// All of them, cascade by cascade, x fastest; not those of which no side receives as much as `threshold`, W/m^2.
+std::vector<ShownCell> shownCells(const BakedVolume& volume, ShownCascade only, const ParallelFor& parallelFor, float threshold = 0.0f);
 
 // The shown cell that holds a position, m; of several cascades the finest that shows one.
 std::optional<ShownCell> cellAt(const BakedVolume& volume, const vec3& position, ShownCascade only);
