@@ -29,6 +29,13 @@ Bounds boundsOf(const ClvVolume& grid) {
     return {grid.origin, grid.origin + grid.cellSize * glm::vec3(grid.resolution)};
 }
 
+Bounds litBounds(const BakedVolume& volume) {
+    const Bounds cascade = boundsOf(volume.cascades.back().level.volume);
+    if (!volume.mark || volume.cascades.size() == 1) return cascade;
+    const Bounds common{glm::max(cascade.lo, volume.mark->bounds.lo), glm::min(cascade.hi, volume.mark->bounds.hi)};
+    return glm::all(glm::lessThan(common.lo, common.hi)) ? common : cascade;
+}
+
 CameraPose overview(const Bounds& bounds, float aspect) {
     CameraPose pose;
     pose.target = bounds.center();

@@ -15,6 +15,10 @@ struct CameraPose {
 };
 
 Bounds boundsOf(const ClvVolume& grid);
+// Of cascades, which reach far beyond a scene, what of the scene lies in the outermost one; all of that one where the scene is
+// unknown or elsewhere. Of a single grid all.
+Bounds litBounds(const BakedVolume& volume);
+
 // From outside, so that all of it fits in a picture of this aspect.
 CameraPose overview(const Bounds& bounds, float aspect);
 CameraPose poseOf(const Camera& camera);

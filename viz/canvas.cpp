@@ -13,6 +13,7 @@ namespace clv {
 namespace {
 
 constexpr int kSmallestText = 8, kMargin = 5;  // pixels
+constexpr double kCaptionMargin = 0.005;       // of the width
 // A renderer that is to be drawn this often or oftener is being turned; at rest VTK asks for far less.
 constexpr double kTurningRate = 1.0;  // frames/s
 
@@ -25,7 +26,7 @@ Canvas::Canvas(vtkRenderWindow& window, double left, double right) : window_(win
     setText(*caption_->GetTextProperty());
     caption_->GetTextProperty()->SetVerticalJustificationToTop();
     caption_->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-    caption_->SetPosition(0.005, 0.99);
+    caption_->SetPosition(kCaptionMargin, 0.99);
     setText(*panel_->GetTextProperty());
     panel_->SetPosition(kMargin, kMargin);
     renderer_->AddViewProp(caption_);
@@ -69,8 +70,10 @@ void Canvas::show(const Drawing& drawing) {
     if (drawing.plot) props_.push_back(actorOf(*drawing.plot, width, height));
     for (const auto& prop : props_) renderer_->AddViewProp(prop);
     bar_.hide(*renderer_);
-    if (drawing.scale) bar_.show(*drawing.scale, barTop_, width, height, *renderer_);
-    caption_->SetInput(drawing.caption.c_str());
+    const std::string caption = wrapped(drawing.caption, (1.0 - 2.0 * kCaptionMargin) * width);
+    caption_->SetInput(caption.c_str());
+    const int captionLines = 1 + int(std::ranges::count(caption, '\n'));
+    if (drawing.scale) bar_.show(*drawing.scale, barTop_, captionLines, width, height, *renderer_);
 }
 
 void Canvas::setPanel(const std::string& text) {

@@ -51,9 +51,9 @@ ColorBar::ColorBar() {
     }
 }
 
-void ColorBar::show(const ColorScale& scale, double top, int width, int height, vtkRenderer& renderer) {
-    // The caption's line stays free above the title, and half a line for the top label below it.
-    const double line = kTextSize * kLineHeight / height, barTop = std::min(top, 1.0 - 3.2 * line);
+void ColorBar::show(const ColorScale& scale, double top, int captionLines, int width, int height, vtkRenderer& renderer) {
+    // The caption stays free above the title, and half a line for the top label below it.
+    const double line = kTextSize * kLineHeight / height, barTop = std::min(top, 1.0 - (captionLines + 2.2) * line);
     const double room = std::max(kRoom, kLeastRoom / width), left = 1.0 - room;
     bar_->SetLookupTable(tableOf(scale));
     bar_->SetPosition(left, kBottom);

@@ -19,8 +19,8 @@ class ColorBar {
 public:
     ColorBar();
 
-    // At the right of a renderer of so many pixels, below `top`, a share of its height.
-    void show(const ColorScale& scale, double top, int width, int height, vtkRenderer& renderer);
+    // At the right of a renderer of so many pixels, below `top`, a share of its height, and below its caption.
+    void show(const ColorScale& scale, double top, int captionLines, int width, int height, vtkRenderer& renderer);
     void hide(vtkRenderer& renderer);
 
 private:

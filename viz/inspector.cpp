@@ -241,10 +241,10 @@ void Inspector::toggleHelp() {
 
 void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
+    const BakedVolume& volume = pane().volume();
     // Cascades that follow the view would lead it ever farther away.
-    const std::vector<BakedCascade>& cascades = pane().volume().cascades;
-    const Bounds bounds = cascades.empty() || (options_.live.on && cascades.size() > 1) ? scene->bounds : boundsOf(cascades.back().level.volume);
-    place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, pane().volume(), scene));
+    const Bounds bounds = volume.cascades.empty() || (options_.live.on && volume.cascades.size() > 1) ? scene->bounds : litBounds(volume);
+    place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, volume, scene));
 }
 
 void Inspector::resetCamera() {

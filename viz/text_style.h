@@ -1,5 +1,7 @@
 // How words look in the window.
 #pragma once
+#include <string>
+
 #include <vtkTextProperty.h>
 
 namespace clv {
@@ -10,5 +12,8 @@ inline constexpr double kLineHeight = 1.3;  // of the size of letters
 
 // Readable where surfaces lie behind.
 void setText(vtkTextProperty& text);
+
+// With line breaks at spaces, so that no line is wider, in pixels; a word that is wider stands alone.
+std::string wrapped(const std::string& text, double width);
 
 }  // namespace clv

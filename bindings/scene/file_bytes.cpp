@@ -14,9 +14,15 @@ bool isFile(const std::filesystem::path& name) {
     return std::filesystem::is_regular_file(name, error);
 }
 
+void requireFile(const std::string& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) throw InputError(file + ": expected a file, not a folder");
+    if (!isFile(file)) throw InputError(file + ": no such file");
+}
+
 std::vector<std::uint8_t> readFileBytes(const std::string& file) {
     std::error_code error;
-    if (!isFile(file)) throw InputError(file + ": no such file");
+    requireFile(file);
     std::ifstream in(file, std::ios::binary);
     std::vector<std::uint8_t> bytes(std::filesystem::file_size(file, error));
     in.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size()));

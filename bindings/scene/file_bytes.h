@@ -10,6 +10,9 @@ namespace clv {
 // Also false where the name cannot be that of a file.
 bool isFile(const std::filesystem::path& name);
 
+// Throws InputError where there is none, or a folder.
+void requireFile(const std::string& file);
+
 // Throws InputError when the file cannot be read.
 std::vector<std::uint8_t> readFileBytes(const std::string& file);
 

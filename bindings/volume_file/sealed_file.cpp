@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "bindings/scene/file_bytes.h"
 #include "bindings/scene/scene.h"
 #include "bindings/volume_file/word_checksum.h"
 
@@ -48,7 +49,7 @@ void sealFile(const std::string& file) {
 
 void checkSeal(const std::string& file) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) throw InputError(file + ": no such file");
+    requireFile(file);
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     std::ifstream in(file, std::ios::binary);
     if (error || !in) throw InputError(file + ": cannot be read");

@@ -200,6 +200,11 @@ TEST_F(BadGltf, aValueOfAnotherKindNeverCrashes) {
 
 TEST_F(BadGltf, aMissingFileIsNamed) { EXPECT_EQ(errorOf(file("nowhere.glb")), file("nowhere.glb") + ": no such file"); }
 
+TEST_F(BadGltf, aFolderIsNoFile) {
+    std::filesystem::create_directory(file("hall.glb"));
+    EXPECT_EQ(errorOf(file("hall.glb")), file("hall.glb") + ": expected a file, not a folder");
+}
+
 TEST_F(BadGltf, anotherExtensionIsAnErrorThatListsWhatIsExpected) {
     const std::string error = errorOf(write("scene.fbx", "x"));
     for (const char* expected : {"scene.fbx", ".glb", ".gltf", ".obj", "cornell"}) EXPECT_NE(error.find(expected), std::string::npos) << error;

@@ -6,9 +6,11 @@
 #include "clv/cpu/parallel.h"
 #include "support/hall_volume.h"
 #include "viz/cell_shapes.h"
+#include "viz/camera_pose.h"
 #include "viz/color_bar.h"
 #include "viz/scene_mesh.h"
 #include "viz/status.h"
+#include "viz/text_style.h"
 
 using namespace clv;
 using namespace clv::test;
@@ -55,6 +57,29 @@ TEST(ColorScale, moreStopsAreBrighterAndNoLightIsBlack) {
     const glm::u8vec3 plain = screenColor(radiance[0], exposureFor(radiance, 0.0)), brighter = screenColor(radiance[0], exposureFor(radiance, 1.0));
     for (int c = 0; c < 3; ++c) EXPECT_GT(brighter[c], plain[c]);
     EXPECT_EQ(screenColor(vec3(0.0f), exposureFor(radiance, 0.0)), glm::u8vec3(0));
+}
+
+TEST(Caption, isBrokenAtSpacesWhereThePaneEnds) {
+    const double tenLetters = 0.6 * kTextSize * 10.5;
+    EXPECT_EQ(wrapped("a caption", tenLetters), "a caption");
+    EXPECT_EQ(wrapped("ten letter and more", tenLetters), "ten letter\nand more");
+    EXPECT_EQ(wrapped("eleven lett\ners in a line", tenLetters), "eleven\nlett\ners in a\nline");
+    EXPECT_EQ(wrapped("irradiance of all", tenLetters), "irradiance\nof all");
+    EXPECT_EQ(wrapped("standard-errors of all", tenLetters), "standard-errors\nof all");
+    EXPECT_EQ(wrapped("", tenLetters), "");
+}
+
+TEST(Overview, showsWhatOfTheSceneTheOutermostCascadeHolds) {
+    BakedVolume volume;
+    volume.cascades.resize(2);
+    ClvVolume& grid = volume.cascades[1].level.volume;
+    grid.origin = vec3(-8.0f), grid.cellSize = 1.0f, grid.resolution = ivec3(16);
+    EXPECT_EQ(litBounds(volume).hi, vec3(8.0f));
+    volume.mark = SceneMark{.triangles = 1, .bounds = {vec3(-1.0f, -9.0f, 2.0f), vec3(3.0f, 1.0f, 4.0f)}};
+    EXPECT_EQ(litBounds(volume).lo, vec3(-1.0f, -8.0f, 2.0f));
+    EXPECT_EQ(litBounds(volume).hi, vec3(3.0f, 1.0f, 4.0f));
+    volume.mark->bounds = {vec3(20.0f), vec3(21.0f)};
+    EXPECT_EQ(litBounds(volume).lo, vec3(-8.0f));
 }
 
 TEST(MergedCubes, standForBlocksOfEightWithTheirMeanColor) {

@@ -104,6 +104,8 @@ TEST_F(DamagedVolume, aMissingFileIsNamed) {
     std::filesystem::remove(file("V/cascade_0.vti"));
     EXPECT_TRUE(names(complaint(), "no such file"));
     EXPECT_THROW(readVolume(file("other.vtm")), InputError);
+    std::filesystem::create_directory(file("V/cascade_0.vti"));
+    EXPECT_TRUE(names(complaint(), "expected a file, not a folder"));
 }
 
 TEST_F(DamagedVolume, sealedTextOfAnyKindIsNoVolume) {
