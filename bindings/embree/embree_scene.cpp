@@ -8,15 +8,13 @@
 #include <embree3/rtcore.h>
 
 #include "bindings/embree/tight_frame.h"
+#include "bindings/scene/scene_facts.h"
 
 namespace clv {
 namespace {
 
 // Rays in one packet: the widest that Embree has. It splits packets where the processor is narrower.
 constexpr std::size_t kPacket = 16;
-// Start of a ray above its surface in units in the last place of the scene's largest coordinate: a hit point is a sum of products
-// with some five roundings. Rays from random triangles met their own surface again at 2 units and never at 4.
-constexpr float kOffsetInUlps = 8.0f;
 constexpr std::uint32_t kNone = RTC_INVALID_GEOMETRY_ID;
 // Surfaces at distance 0 do not count: a lamp in the corner of a room would light nothing else.
 constexpr float kNearest = std::numeric_limits<float>::min();
@@ -99,7 +97,6 @@ struct EmbreeScene::Impl {
     RTCScene fast;        // for the trace stage: some 30 % faster, lets about one ray in a million through an edge
     RTCScene watertight;  // for everything that judges
     std::vector<glm::vec3> normals;  // unit length, a triangle each, right-hand rule
-    float surfaceOffset;
 
     explicit Impl(const Scene& source) : scene(source), device(rtcNewDevice(nullptr)), fastFrame(findTightFrame(source)) {
         if (!device) throw std::runtime_error("Embree cannot start on this processor");
@@ -111,8 +108,6 @@ struct EmbreeScene::Impl {
             const glm::vec3& a = scene.positions[t.x];
             normals.push_back(glm::normalize(glm::cross(scene.positions[t.y] - a, scene.positions[t.z] - a)));
         }
-        const glm::vec3 reach = glm::max(glm::abs(scene.bounds.lo), glm::abs(scene.bounds.hi));
-        surfaceOffset = kOffsetInUlps * std::numeric_limits<float>::epsilon() * std::max({reach.x, reach.y, reach.z});
     }
 
     ~Impl() {
@@ -189,7 +184,7 @@ EmbreeScene::EmbreeScene(const Scene& scene) : impl_(std::make_unique<Impl>(scen
 EmbreeScene::~EmbreeScene() = default;
 
 const Scene& EmbreeScene::scene() const { return impl_->scene; }
-float EmbreeScene::surfaceOffset() const { return impl_->surfaceOffset; }
+float EmbreeScene::surfaceOffset() const { return clv::surfaceOffset(impl_->scene.bounds); }
 
 void EmbreeScene::trace(std::span<ClvRay> rays) const {
     RTCIntersectContext context = incoherentContext();

@@ -8,12 +8,15 @@
 #include <fmt/format.h>
 
 #include "bindings/scene/reach.h"
+#include "bindings/scene/scene_facts.h"
 
 namespace clv {
 namespace {
 
 constexpr double kFarScene = 1000.0;     // m: beyond it floats round coordinates to more than 0.1 mm
 constexpr double kFarInExtents = 4.0;    // an anchor pays only when the centre lies several extents away
+
+constexpr float kFineDetail = 0.01f;     // of a triangle's size: what may be lost of it without a word
 
 struct DoubleBounds {
     glm::dvec3 lo{std::numeric_limits<double>::max()}, hi{std::numeric_limits<double>::lowest()};
@@ -103,6 +106,22 @@ void SceneBuilder::dropZeroAreaTriangles() {
     scene_.nodeOf.resize(kept);
 }
 
+void SceneBuilder::warnOfLostDetail(const std::string& source) {
+    std::vector<float> sizes;
+    sizes.reserve(scene_.triangles.size());
+    for (const glm::uvec3& corners : scene_.triangles) {
+        const glm::vec3& a = scene_.positions[corners.x];
+        sizes.push_back(std::sqrt(glm::length(glm::cross(scene_.positions[corners.y] - a, scene_.positions[corners.z] - a))));
+    }
+    const auto middle = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const float offset = surfaceOffset(scene_.bounds);
+    if (offset <= kFineDetail * *middle) return;
+    const glm::vec3 extent = scene_.bounds.extent();
+    warn(fmt::format("{}: half of its triangles are smaller than {:.2g} m, but it is {:.2g} m wide: light within {:.1g} m of surfaces is not computed right; "
+                     "leave out what lies far away", source, *middle, std::max({extent.x, extent.y, extent.z}), offset));
+}
+
 Scene SceneBuilder::finish(const std::string& source) && {
     if (scene_.triangles.empty()) throw InputError(source + ": no triangles; expected a scene with at least one");
     checkVertices(source);
@@ -139,6 +158,7 @@ Scene SceneBuilder::finish(const std::string& source) && {
                                      scene_.droppedTriangles));
     bool textured = std::any_of(scene_.materials.begin(), scene_.materials.end(), [](const Material& m) { return m.texture >= 0; });
     if (!textured) scene_.uvs.clear();
+    warnOfLostDetail(source);
     return std::move(scene_);
 }
 

@@ -43,6 +43,8 @@ public:
 private:
     void checkVertices(const std::string& source) const;
     void dropZeroAreaTriangles();
+    // Where rays start too far above small triangles, because others lie far away.
+    void warnOfLostDetail(const std::string& source);
 
     Scene scene_;
     std::vector<glm::dvec3> positionsWorld_;

@@ -1,12 +1,17 @@
 #include "bindings/scene/scene_facts.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "clv/plan/direction_frame.h"
 
 namespace clv {
 namespace {
+
+// In units in the last place of the scene's largest coordinate: a hit point is a sum of products with some five roundings. Rays from
+// random triangles met their own surface again at 2 units and never at 4.
+constexpr float kOffsetInUlps = 8.0f;
 
 // Each triangle's normal, as long as its area is large, m^2.
 std::vector<vec3> faceAreas(const Scene& scene) {
@@ -26,6 +31,11 @@ bool isGrey(const glm::vec3& v) { return v.x == v.y && v.y == v.z; }
 bool sendsLight(const NamedLight& light) {
     const glm::vec3 i = light.light.intensity;
     return std::max({i.x, i.y, i.z}) > 0.0f;
+}
+
+float surfaceOffset(const Bounds& bounds) {
+    const glm::vec3 reach = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+    return kOffsetInUlps * std::numeric_limits<float>::epsilon() * std::max({reach.x, reach.y, reach.z});
 }
 
 SceneFacts sceneFacts(const Scene& scene) {

@@ -120,7 +120,9 @@ TEST(RsmRender, whatLampsFarAwayMeetHasTheAccuracyOfTheScene) {
             // Flux on a wall of 16 m^2 that half reflects and a black screen: I cos / r^2 by the area that is not hidden.
             const double cosine = std::abs(light.position.z) / distance, hidden = 4.0;
             const double expected = 0.5 * (16.0 - hidden) * cosine / (double(distance) * distance);
-            if (distance > 100.0f) EXPECT_NEAR(fluxOf(texels) / expected, 1.0, 0.03) << distance << " m, cone " << cone;
+            if (distance > 100.0f) {
+                EXPECT_NEAR(fluxOf(texels) / expected, 1.0, 0.03) << distance << " m, cone " << cone;
+            }
         }
     }
 }

@@ -74,6 +74,15 @@ TEST_F(ObjMaterial, numbersMayBeginWithTheirPoint) {
     EXPECT_EQ(scene.positions[2], glm::vec3(1.0f, 0.75f, 0.125f));
 }
 
+TEST_F(ObjMaterial, aTriangleFarFromSmallOnesIsWarnedOf) {
+    const std::string far = "v 20000 0 0\nv 20001 0 0\nv 20001 1 0\n", last = "f 5 6 7\n", square = "mtllib half.mtl\n" + kSquare + "usemtl half\n";
+    write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
+    EXPECT_TRUE(loadScene(write("square.obj", square + "f 1 2 3\nf 1 3 4\n")).warnings.empty());
+    EXPECT_EQ(loadScene(write("square.obj", square + far + "f 1 2 3\nf 1 3 4\n" + last)).warnings,
+              std::vector<std::string>{file("square.obj") + ": half of its triangles are smaller than 1 m, but it is 2e+04 m wide: light within 0.02 m of surfaces "
+                                                            "is not computed right; leave out what lies far away"});
+}
+
 TEST_F(ObjMaterial, thatNoLibraryHasIsAWarningWithItsLine) {
     write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
     const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "usemtl nope\nf 1 2 3\nusemtl half\nf 1 3 4\nusemtl nope\nf 1 2 4\n"));
