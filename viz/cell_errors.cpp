@@ -121,7 +121,7 @@ void drawCellTruth(const BakedVolume& volume, const World& world, const View& vi
         measured.add(i, sides);
     }
     if (view.subject == Subject::cubes) {
-        drawCubes(measured.cells, view, drawing);
+        drawCubes(measured.cells, view, parallelFor, drawing);
     } else {
         drawing.caption = titleOf(Quantity::irradiance);
         drawing.scale = scaleFor(titleOf(Quantity::irradiance), valuesOfSides(measured.cells, measured.values()));

@@ -1,11 +1,14 @@
 #include "viz/cell_shapes.h"
 
+#include <algorithm>
+
 #include "clv/math/constants.h"
 #include "viz/cell_values.h"
 
 namespace clv {
 namespace {
 
+constexpr std::size_t kPiece = 1024;  // cells
 constexpr const char* kUnknown = ": unknown from a single estimate of the light";
 
 void checkSameGrids(const BakedVolume& a, const BakedVolume& b) {
@@ -19,19 +22,22 @@ void checkSameGrids(const BakedVolume& a, const BakedVolume& b) {
 
 }  // namespace
 
-void drawCubes(const std::vector<ShownCell>& cells, const View& view, Drawing& drawing) {
+void drawCubes(const std::vector<ShownCell>& cells, const View& view, const ParallelFor& parallelFor, Drawing& drawing) {
     drawing.caption = "ambient cubes: irradiance on six sides";
     std::vector<vec3> radiance;
+    radiance.reserve(cells.size() * kSides);
     for (const ShownCell& cell : cells) {
         for (const vec3& e : cell.light.irradiance) radiance.push_back(e / kClvPi);
     }
     const Exposure exposure = view.fixedExposure.value_or(exposureFor(radiance, view.exposure));
     drawing.exposure = exposure;
-    std::vector<LitCube> cubes;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        LitCube& cube = cubes.emplace_back(cubeOf(cells[i]));
-        for (std::size_t side = 0; side < kSides; ++side) cube.side[side] = screenColor(radiance[i * kSides + side], exposure);
-    }
+    std::vector<LitCube> cubes(cells.size());
+    parallelFor((cells.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
+        for (std::size_t i = piece * kPiece; i < std::min(cells.size(), (piece + 1) * kPiece); ++i) {
+            cubes[i] = cubeOf(cells[i]);
+            for (std::size_t side = 0; side < kSides; ++side) cubes[i].side[side] = screenColor(radiance[i * kSides + side], exposure);
+        }
+    });
     addCubes(std::move(cubes), drawing);
 }
 

@@ -6,7 +6,7 @@
 namespace clv {
 
 // Cubes whose faces are lit by what arrives on them, radiance of white surfaces, for these cells.
-void drawCubes(const std::vector<ShownCell>& cells, const View& view, Drawing& drawing);
+void drawCubes(const std::vector<ShownCell>& cells, const View& view, const ParallelFor& parallelFor, Drawing& drawing);
 // The quantity in colours, on what the view says.
 void drawQuantity(const BakedVolume& volume, Quantity quantity, const View& view, const ParallelFor& parallelFor, Drawing& drawing);
 

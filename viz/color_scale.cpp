@@ -48,8 +48,7 @@ ColorScale differenceScaleFor(const std::string& title, std::vector<float> value
 }
 
 glm::u8vec3 screenColor(const glm::vec3& radiance, const Exposure& exposure) {
-    Image pixel(1, 1, radiance);
-    return encoded(toneMap(pixel, exposure).pixels[0]);
+    return encoded(toneMap(radiance, exposure));
 }
 
 Exposure exposureFor(std::span<const glm::vec3> radiance, double stops) {

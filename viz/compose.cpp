@@ -31,7 +31,7 @@ Drawing compose(const BakedVolume& volume, const World* world, const View& view,
     const bool cellTruth = view.truth && (view.subject == Subject::cubes || view.subject == Subject::irradiance);
     if (view.truth && !cellTruth && view.subject != Subject::mesh) throw InputError(fmt::format("--truth: expected --view cubes, irradiance or mesh, not {}", nameOf(view.subject)));
     if (cellTruth) drawCellTruth(volume, needed(world, view.subject), view, parallelFor, drawing);
-    else if (view.subject == Subject::cubes) drawCubes(cellsOf(volume, view, parallelFor), view, drawing);
+    else if (view.subject == Subject::cubes) drawCubes(cellsOf(volume, view, parallelFor), view, parallelFor, drawing);
     else if (const auto quantity = quantityOf(view.subject)) drawQuantity(volume, *quantity, view, parallelFor, drawing);
     if (view.subject == Subject::error) (carrierOf(view) == Carrier::surfaces ? drawError : drawCellErrors)(volume, needed(world, view.subject), view, parallelFor, drawing);
     if (view.subject == Subject::mesh || view.mesh) drawMesh(volume, needed(world, Subject::mesh), view, parallelFor, drawing);

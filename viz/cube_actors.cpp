@@ -20,6 +20,7 @@ FlatQuads facesOf(std::span<const LitCube> cubes, int direction) {
     const int axis = direction / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
     const bool positive = direction % 2 == 0;
     FlatQuads quads;
+    quads.points.reserve(4 * cubes.size()), quads.colors.reserve(cubes.size());
     for (const LitCube& cube : cubes) {
         for (int k = 0; k < 4; ++k) {
             glm::vec3 p = cube.center;

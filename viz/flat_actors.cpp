@@ -1,14 +1,17 @@
 #include "viz/flat_actors.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
 namespace clv {
@@ -17,10 +20,12 @@ namespace {
 constexpr double kInFront = -66000.0;  // units of depth that bring lines before all else
 
 vtkNew<vtkPolyData> polyDataOf(std::span<const glm::vec3> positions) {
+    vtkNew<vtkFloatArray> coordinates;
+    coordinates->SetNumberOfComponents(3);
+    coordinates->SetNumberOfTuples(vtkIdType(positions.size()));
+    std::copy_n(reinterpret_cast<const float*>(positions.data()), 3 * positions.size(), coordinates->GetPointer(0));
     vtkNew<vtkPoints> points;
-    points->SetDataTypeToFloat();
-    points->SetNumberOfPoints(vtkIdType(positions.size()));
-    for (std::size_t i = 0; i < positions.size(); ++i) points->SetPoint(vtkIdType(i), positions[i].x, positions[i].y, positions[i].z);
+    points->SetData(coordinates);
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
     return data;
@@ -30,20 +35,19 @@ vtkNew<vtkUnsignedCharArray> arrayOf(std::span<const glm::u8vec3> colors) {
     vtkNew<vtkUnsignedCharArray> array;
     array->SetNumberOfComponents(3);
     array->SetNumberOfTuples(vtkIdType(colors.size()));
-    for (std::size_t i = 0; i < colors.size(); ++i) array->SetTypedTuple(vtkIdType(i), &colors[i][0]);
+    std::copy_n(reinterpret_cast<const unsigned char*>(colors.data()), 3 * colors.size(), array->GetPointer(0));
     return array;
 }
 
 // Cells of `corners` points each, one after the other.
 vtkNew<vtkCellArray> runs(std::size_t points, int corners) {
+    vtkNew<vtkTypeInt32Array> offsets, ids;
+    offsets->SetNumberOfValues(vtkIdType(points) / corners + 1);
+    ids->SetNumberOfValues(vtkIdType(points));
+    for (vtkIdType cell = 0; cell < offsets->GetNumberOfValues(); ++cell) offsets->SetValue(cell, int(cell) * corners);
+    std::iota(ids->Begin(), ids->End(), 0);
     vtkNew<vtkCellArray> cells;
-    cells->Use32BitStorage();
-    cells->AllocateExact(vtkIdType(points) / corners, vtkIdType(points));
-    std::vector<vtkIdType> ids(static_cast<std::size_t>(corners));
-    for (std::size_t first = 0; first < points; first += ids.size()) {
-        std::iota(ids.begin(), ids.end(), vtkIdType(first));
-        cells->InsertNextCell(corners, ids.data());
-    }
+    cells->SetData(offsets, ids);
     return cells;
 }
 

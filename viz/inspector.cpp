@@ -40,15 +40,15 @@ vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
 
 Inspector::Inspector(const VizOptions& options) : options_(options), view_(options.view), parallelFor_(parallelForOf({.threads = options.threads})) {
     check(options);
-    panes_.push_back(options.file.empty() ? std::make_shared<Pane>(options.scene) : std::make_shared<Pane>(options.file, options.scene, options.frame));
+    panes_.push_back(options.file.empty() ? std::make_shared<Pane>(options.scene) : std::make_shared<Pane>(options.file, options.scene, options.frame, parallelFor_));
     window_->SetSize(options.width, options.height);
     // Smooth edges cost a processor that draws twice the time, which a window that turns does not have.
     if (options.out.empty()) window_->SetMultiSamples(0);
     window_->SetWindowName(("clv-viz " + options.file).c_str());
     if (options.without || options.truth) panes_.push_back(panes_[0]);
     if (!options.other.empty()) {
-        panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0));
-        panes_[1]->loadFrame(options.frame);
+        panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0, parallelFor_));
+        panes_[1]->loadFrame(options.frame, parallelFor_);
     }
     placeCamera(options.camera);
     if (options.live.on) startLive();
@@ -272,8 +272,8 @@ void Inspector::showFrame(std::size_t frame) {
 void Inspector::loadFrame(std::size_t frame) {
     frame_ = frame;
     try {
-        panes_[0]->loadFrame(frame_);
-        if (panes_.back() != panes_[0]) panes_.back()->loadFrame(frame_);
+        panes_[0]->loadFrame(frame_, parallelFor_);
+        if (panes_.back() != panes_[0]) panes_.back()->loadFrame(frame_, parallelFor_);
         refresh();
     } catch (const InputError& error) {
         playing_ = false;

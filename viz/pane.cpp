@@ -4,7 +4,8 @@
 
 namespace clv {
 
-Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame) : file_(file), series_(file), volume_(series_.load(frame)) {
+Pane::Pane(const std::string& file, const std::string& scene, std::size_t frame, const ParallelFor& parallelFor)
+    : file_(file), series_(file), volume_(series_.load(frame, parallelFor)) {
     try {
         world_.emplace(volume_, scene);
     } catch (const InputError&) {
@@ -27,8 +28,8 @@ void Pane::setLights(const std::vector<NamedLight>& lights) {
     if (world_) world_->setLights(lights);
 }
 
-void Pane::loadFrame(std::size_t frame) {
-    volume_ = series_.load(std::min(frame, series_.frames() - 1));
+void Pane::loadFrame(std::size_t frame, const ParallelFor& parallelFor) {
+    volume_ = series_.load(std::min(frame, series_.frames() - 1), parallelFor);
     if (world_) world_->setLights(volume_.lights);
 }
 

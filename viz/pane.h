@@ -12,7 +12,7 @@ class Pane {
 public:
     // `scene` in place of the one that the volume names, unless empty. A scene that is not there is left out: views that need it
     // say so. Throws InputError for a damaged file.
-    Pane(const std::string& file, const std::string& scene, std::size_t frame);
+    Pane(const std::string& file, const std::string& scene, std::size_t frame, const ParallelFor& parallelFor);
     // The scene alone: its volume has no cascades until light is computed. Throws InputError.
     explicit Pane(const std::string& scene);
 
@@ -24,7 +24,7 @@ public:
     const Series& series() const { return series_; }
     const std::string& file() const { return file_; }
 
-    void loadFrame(std::size_t frame);
+    void loadFrame(std::size_t frame, const ParallelFor& parallelFor);
 
 private:
     std::string file_;

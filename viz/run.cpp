@@ -29,13 +29,14 @@ int fail(int status, std::string message) {
 
 // Of the file, or as live light leaves it.
 BakedVolume volumeOf(const VizOptions& options) {
-    if (!options.live.on) return Series(options.file).load(options.frame);
-    const auto pane = options.file.empty() ? std::make_unique<Pane>(options.scene) : std::make_unique<Pane>(options.file, options.scene, options.frame);
+    const ParallelFor parallelFor = parallelForOf({.threads = options.threads});
+    if (!options.live.on) return Series(options.file).load(options.frame, parallelFor);
+    const auto pane = options.file.empty() ? std::make_unique<Pane>(options.scene) : std::make_unique<Pane>(options.file, options.scene, options.frame, parallelFor);
     const auto view = [&] {
         const Scene& scene = pane->world()->scene();
         return cameraOf(options.camera.empty() ? overview(scene.bounds, float(options.width) / float(options.height)) : parsePose(options.camera, pane->volume(), &scene));
     };
-    LiveMode live(*pane, options.live, view, parallelForOf({.threads = options.threads}));
+    LiveMode live(*pane, options.live, view, parallelFor);
     for (int frame = 0; frame < options.live.frames; ++frame) live.frame();
     return pane->volume();
 }

@@ -17,10 +17,10 @@ Series::Series(const std::string& file) {
     for (SeriesStep& step : steps_) step.vtm = (fs::path(file).parent_path() / step.vtm).string();
 }
 
-BakedVolume Series::load(std::size_t frame) const {
+BakedVolume Series::load(std::size_t frame, const ParallelFor& parallelFor) const {
     if (frame == kLastFrame) frame = frames() - 1;
     if (frame >= frames()) throw InputError(fmt::format("--frame {}: expected a number below {}", frame, frames()));
-    return readVolume(steps_[frame].vtm);
+    return readVolume(steps_[frame].vtm, parallelFor);
 }
 
 }  // namespace clv

@@ -21,7 +21,7 @@ public:
     std::size_t frames() const { return steps_.size(); }
     double time(std::size_t frame) const { return steps_[frame].time; }  // s
     // From 0, or kLastFrame. Throws InputError.
-    BakedVolume load(std::size_t frame) const;
+    BakedVolume load(std::size_t frame, const ParallelFor& parallelFor) const;
 
 private:
     std::vector<SeriesStep> steps_;

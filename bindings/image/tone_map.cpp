@@ -30,12 +30,14 @@ Exposure autoExposure(const Image& radiance) {
 
 Image toneMap(const Image& radiance, const Exposure& exposure) {
     Image display = radiance;
-    for (glm::vec3& pixel : display.pixels) {
-        pixel *= exposure.scale;
-        const float world = luminance(pixel);
-        pixel *= (1.0f + world / (exposure.white * exposure.white)) / (1.0f + world);
-    }
+    for (glm::vec3& pixel : display.pixels) pixel = toneMap(pixel, exposure);
     return display;
+}
+
+glm::vec3 toneMap(const glm::vec3& radiance, const Exposure& exposure) {
+    const glm::vec3 scaled = radiance * exposure.scale;
+    const float world = luminance(scaled);
+    return scaled * ((1.0f + world / (exposure.white * exposure.white)) / (1.0f + world));
 }
 
 }  // namespace clv

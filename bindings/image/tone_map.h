@@ -19,5 +19,6 @@ Exposure autoExposure(const Image& radiance);
 
 // Scales and compresses luminance (their equation 4); hue is kept.
 Image toneMap(const Image& radiance, const Exposure& exposure);
+glm::vec3 toneMap(const glm::vec3& radiance, const Exposure& exposure);
 
 }  // namespace clv

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <exception>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -98,9 +99,25 @@ BakedCascade readCascade(VtiFile& file, const std::string& name, const DepositLa
     return cascade;
 }
 
+// One file of a volume, or why it could not be read.
+struct Piece {
+    nlohmann::json about;
+    BakedCascade cascade;
+    std::exception_ptr failure;
+};
+
+Piece readPiece(const std::string& name, std::size_t index) {
+    checkSeal(name);
+    VtiFile file(name);
+    Piece piece;
+    piece.about = jsonOf(file, name, arrays::kAbout);
+    piece.cascade = readCascade(file, name, volumeFromDescription(name, piece.about).layout, index);
+    return piece;
+}
+
 }  // namespace
 
-BakedVolume readVolume(const std::string& vtm) {
+BakedVolume readVolume(const std::string& vtm, const ParallelFor& parallelFor) {
     checkSeal(vtm);
     const auto index = parseVtkXml(vtm, "vtkMultiBlockDataSet");
     vtkXMLDataElement* blocks = index->GetRootElement()->FindNestedElementWithName("vtkMultiBlockDataSet");
@@ -108,22 +125,29 @@ BakedVolume readVolume(const std::string& vtm) {
     std::vector<std::string> pieces;
     for (vtkXMLDataElement* set : dataSets(*index, vtm, "vtkMultiBlockDataSet")) pieces.push_back((fs::path(vtm).parent_path() / set->GetAttribute("file")).string());
 
+    if (pieces.size() > kClvMaxCascades) throw InputError(fmt::format("{}: expected at most {} data sets, found {}", vtm, kClvMaxCascades, pieces.size()));
+
+    std::vector<Piece> read(pieces.size());
+    parallelFor(pieces.size(), [&](std::size_t i) {
+        try {
+            read[i] = readPiece(pieces[i], i);
+        } catch (...) {
+            read[i].failure = std::current_exception();
+        }
+    });
     BakedVolume volume;
-    nlohmann::json about;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        checkSeal(pieces[i]);
-        VtiFile file(pieces[i]);
-        const nlohmann::json description = jsonOf(file, pieces[i], arrays::kAbout);
+        if (read[i].failure) std::rethrow_exception(read[i].failure);
+        const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", pieces[i], what)); };
         if (i == 0) {
-            about = description;
-            volume = volumeFromDescription(pieces[i], about);
+            volume = volumeFromDescription(pieces[i], read[i].about);
             if (volume.cascades.size() != pieces.size()) throw InputError(fmt::format("{}: expected {} cascades, found {}", vtm, volume.cascades.size(), pieces.size()));
         }
-        if (description != about) file.fail("expected a piece of the same volume as " + pieces[0]);
-        volume.cascades[i] = readCascade(file, pieces[i], volume.layout, i);
-        const BakedCascade &first = volume.cascades[0], &read = volume.cascades[i];
-        if (read.estimates.size() != first.estimates.size() || read.dynamicity.empty() != first.dynamicity.empty()) file.fail("expected the same arrays as in " + pieces[0]);
-        if (!content || JsonReader(pieces[i], about)["content"].text() != content) file.fail("expected a piece of the volume that " + vtm + " lists");
+        if (read[i].about != read[0].about) fail("expected a piece of the same volume as " + pieces[0]);
+        volume.cascades[i] = std::move(read[i].cascade);
+        const BakedCascade &first = volume.cascades[0], &next = volume.cascades[i];
+        if (next.estimates.size() != first.estimates.size() || next.dynamicity.empty() != first.dynamicity.empty()) fail("expected the same arrays as in " + pieces[0]);
+        if (!content || JsonReader(pieces[i], read[0].about)["content"].text() != content) fail("expected a piece of the volume that " + vtm + " lists");
     }
     return volume;
 }

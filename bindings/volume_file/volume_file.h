@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bindings/volume_file/baked_volume.h"
+#include "clv/cpu/parallel.h"
 
 namespace clv {
 
@@ -16,8 +17,9 @@ using PathOfName = std::function<std::string(const std::string& name)>;
 // Asks for the paths of the pieces, "V/cascade_0.vti" for "V.vtm", and of `vtm` last, in whose folder they lie. Throws
 // std::runtime_error where there is no room.
 void writeVolume(const std::string& vtm, const BakedVolume& volume, const PathOfName& pathOf);
-// Throws InputError, one line that names the file and what was expected, unless the whole volume is there as it was written.
-BakedVolume readVolume(const std::string& vtm);
+// Throws InputError, one line that names the file and what was expected, unless the whole volume is there as it was written. Pieces
+// are read side by side.
+BakedVolume readVolume(const std::string& vtm, const ParallelFor& parallelFor = serialFor());
 
 struct SeriesStep {
     double time = 0.0;  // s

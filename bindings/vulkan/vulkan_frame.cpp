@@ -10,18 +10,6 @@
 namespace clv {
 namespace {
 
-struct Step {
-    std::vector<VulkanPass> passes;
-    vk::raii::CommandBuffer commands = nullptr;
-    vk::raii::QueryPool timestamps = nullptr;
-    bool hasRun = false;
-};
-
-// Where a buffer that the host cannot reach has its copy, and how much of that is newer than the buffer.
-struct Staged {
-    vk::DeviceSize offset = 0, newBytes = 0;
-};
-
 // All that is done before, the host's part too, is over and visible to all that follows.
 void orderAll(const vk::raii::CommandBuffer& commands) {
     const vk::AccessFlags all = vk::AccessFlagBits::eMemoryRead | vk::AccessFlagBits::eMemoryWrite;
@@ -32,6 +20,18 @@ void orderAll(const vk::raii::CommandBuffer& commands) {
 }  // namespace
 
 struct VulkanFrame::Impl {
+    struct Step {
+        std::vector<VulkanPass> passes;
+        vk::raii::CommandBuffer commands = nullptr;
+        vk::raii::QueryPool timestamps = nullptr;
+        bool hasRun = false;
+    };
+
+    // Where a buffer that the host cannot reach has its copy, and how much of that is newer than the buffer.
+    struct Staged {
+        vk::DeviceSize offset = 0, newBytes = 0;
+    };
+
     VulkanDevice::Impl& device;
     const Frame frame;
     std::vector<VulkanBuffer> buffers;

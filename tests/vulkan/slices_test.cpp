@@ -195,4 +195,18 @@ TEST_F(VulkanSlices, spareTheFirstCellAndKeepTheLast) {
     }
 }
 
+// 16 bits hold sums up to 65504 as numbers: of a cell with more light that much is left.
+TEST_F(VulkanSlices, keepWhatSixteenBitsHoldOfSumsThatAreLarger) {
+    const Level level = openLevel();
+    const DepositLayout layout{kClvStorageCube, 1};
+    ClvRay ray{};
+    ray.origin = clvCellCenter(level.volume, ivec3(2, 2, 2)), ray.direction = vec3(-1, 0, 0), ray.maxDistance = 1.6f * level.volume.cellSize;
+    for (const float flux : {4e4f, 1e6f}) {
+        ray.flux = vec3(flux);
+        const Drawn drawn = drawnBy(ShaderLanguage::glsl, level, layout, std::vector<ClvRay>(4, ray), FrameFormat::rgba16Float);
+        EXPECT_EQ(*std::ranges::max_element(drawn.sums), 65504.0f) << flux;
+        EXPECT_EQ(std::ranges::count(drawn.sums, 65504.0f), 4) << flux;
+    }
+}
+
 }  // namespace slices_test

@@ -71,7 +71,7 @@ struct LightFrameSettings {
     std::uint64_t accelerationBytes = 0;  // but of TraceWay::walk: what the graphics API wants for an acceleration structure of the triangles
     bool keepHits = false;             // further bounces need to know what rays met
     InjectWay inject = InjectWay::bricks;
-    FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float where a device cannot add up 32 bits
+    FrameFormat sliceFormat = FrameFormat::rgba32Float;  // of InjectWay::slices; rgba16Float, sums up to 65504 W, where a device cannot add up 32 bits
     std::vector<LightFrameLevel> levels;
 };
 

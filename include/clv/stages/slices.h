@@ -7,6 +7,7 @@
 // merely clips.
 #ifndef CLV_STAGES_SLICES_H
 #define CLV_STAGES_SLICES_H
+#include "../math/finite.h"
 #include "inject.h"
 #include "record.h"
 CLV_NAMESPACE_BEGIN
@@ -90,10 +91,18 @@ CLV_FN vec4 clvLineOnSide(ClvCoefficients sides, uint side, vec3 flux, float dyn
     return vec4(flux.x * cosine, flux.y * cosine, flux.z * cosine, cosine > 0.0f ? dynamicity : 0.0f);
 }
 
+// Images of 16 bits hold sums up to this; of larger ones, infinite there, it is what is left.
+CLV_CONST float kClvMostInHalf = 65504.0f;
+
+CLV_FN float clvSliceSum(float sum) {
+    if (clvIsFinite(sum)) return sum;
+    return clvIsNan(sum) ? 0.0f : sum > 0.0f ? kClvMostInHalf : -kClvMostInHalf;
+}
+
 CLV_FN ClvCoefficients clvChannelOfSides(float s0, float s1, float s2, float s3, float s4, float s5) {
     ClvCoefficients x;
-    x.a = vec4(s0, s1, s2, s3);
-    x.b = vec4(s4, s5, 0.0f, 0.0f);
+    x.a = vec4(clvSliceSum(s0), clvSliceSum(s1), clvSliceSum(s2), clvSliceSum(s3));
+    x.b = vec4(clvSliceSum(s4), clvSliceSum(s5), 0.0f, 0.0f);
     x.c = 0.0f;
     return x;
 }
