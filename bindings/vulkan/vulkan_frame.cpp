@@ -265,7 +265,7 @@ void VulkanFrame::runSteps(std::span<const std::string_view> names) {
 
 std::vector<std::pair<std::string, double>> VulkanFrame::times(std::string_view step) const {
     const std::size_t i = impl_->stepOf(step);
-    const Step& made = impl_->steps[i];
+    const Impl::Step& made = impl_->steps[i];
     std::vector<std::pair<std::string, double>> times;
     if (!(impl_->device.timestampPeriod > 0.0f) || !made.hasRun) return times;
     const std::vector<FramePass>& passes = impl_->frame.steps[i].passes;
