@@ -75,7 +75,8 @@ void drawDifference(const BakedVolume& volume, const BakedVolume& other, Quantit
                             [=](const ShownCell& cell) { return valueOf(cell, quantity) - valueOf(there(cell), quantity); }};
     drawing.scale = differenceScaleFor(titleOf(quantity), valuesOfSides(cells, values));
     if (view.range) drawing.scale->lo = view.range->x, drawing.scale->hi = view.range->y;
-    leaveOutDim(view, cells);
+    // What one file has and the other lacks is where they differ most.
+    std::erase_if(cells, [&](const ShownCell& cell) { return std::max(brightest(cell.light), brightest(there(cell).light)) < view.threshold; });
     drawValues(volume, cells, values, view, drawing);
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 
 #include "bindings/cli/options.h"
+#include "bindings/cli/standard_streams.h"
 #include "viz/camera_pose.h"
 #include "viz/compose.h"
 #include "viz/describe.h"
@@ -28,10 +30,18 @@ std::string shownName(const std::filesystem::path& file, const std::filesystem::
     return file.filename() != other.filename() ? file.filename() : file.parent_path().filename() / file.filename();
 }
 
-// Where planes across an axis cut the coarsest cascade, m, world space.
+constexpr double kInCell = 1e-3;  // of a cell: so far within the coarsest cascade a plane stays, where it cuts cells
+
+// Where the coarsest cascade lies along an axis, m, world space.
 std::pair<double, double> placesOf(const BakedVolume& volume, int axis) {
     const Bounds bounds = boundsOf(volume.cascades.back().level.volume);
     return {double(bounds.lo[axis]) + volume.anchor[axis], double(bounds.hi[axis]) + volume.anchor[axis]};
+}
+
+double placeInside(const BakedVolume& volume, int axis, double place) {
+    const auto [lo, hi] = placesOf(volume, axis);
+    const double margin = kInCell * double(volume.cascades.back().level.volume.cellSize);
+    return std::clamp(place, lo + margin, hi - margin);
 }
 
 vec3 vecOf(const double* v) { return vec3(v[0], v[1], v[2]); }
@@ -50,6 +60,7 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
         panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0, parallelFor_));
         panes_[1]->loadFrame(options.frame, parallelFor_);
     }
+    sayWarnings();
     placeCamera(options.camera);
     if (options.live.on) startLive();
     for (std::size_t k = 0; k < panes_.size(); ++k) {
@@ -57,9 +68,9 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
         canvases_.push_back(std::make_unique<Canvas>(*window_, double(k) / double(panes_.size()), double(k + 1) / double(panes_.size())));
         canvases_[k]->renderer().SetActiveCamera(camera_);
     }
-    checkPlanes();
+    placePlanes();
     checkFrames();
-    for (const std::vector<double>& numbers : options.picks) marked_.push_back(typedPick(numbers, pane().volume()));
+    for (const std::vector<double>& numbers : options.picks) marked_.push_back(typedPick(numbers, pane().volume(), view_.cascade));
     frame_ = std::min(options.frame, pane().series().frames() - 1);
     playing_ = options.play;
     composePanes();
@@ -96,16 +107,25 @@ Camera Inspector::viewCamera() {
 
 float Inspector::aspect() const { return float(options_.width) / float(options_.height) / float(panes_.size()); }
 
+void Inspector::sayWarnings() const {
+    std::set<std::string> warnings;  // two panes may show one scene
+    for (const auto& pane : panes_) {
+        if (pane->world()) warnings.insert(pane->world()->scene().warnings.begin(), pane->world()->scene().warnings.end());
+    }
+    for (const std::string& warning : warnings) sayOnStderr("clv-viz: " + warning);
+}
+
 void Inspector::checkCascade(const BakedVolume& volume) const {
     const std::size_t count = volume.cascades.size();
     if (view_.cascade.value_or(0) >= count) throw InputError(fmt::format("--cascade {}: expected a number below {}", *view_.cascade, count));
 }
 
-void Inspector::checkPlanes() const {
-    for (const SlicePlane& plane : view_.slices) {
+void Inspector::placePlanes() {
+    for (SlicePlane& plane : view_.slices) {
         const auto [lo, hi] = placesOf(pane().volume(), plane.axis);
         if (plane.place < lo || plane.place > hi)
             throw InputError(fmt::format("--slice {}={}: expected a place in the volume, from {:.4g} to {:.4g} m", "xyz"[plane.axis], plane.place, lo, hi));
+        plane.place = placeInside(pane().volume(), plane.axis, plane.place);
     }
 }
 
@@ -243,7 +263,7 @@ void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
     const BakedVolume& volume = pane().volume();
     // Cascades that follow the view would lead it ever farther away.
-    const Bounds bounds = volume.cascades.empty() || (options_.live.on && volume.cascades.size() > 1) ? scene->bounds : litBounds(volume);
+    const Bounds bounds = volume.cascades.empty() || (scene && options_.live.on && volume.cascades.size() > 1) ? scene->bounds : litBounds(volume);
     place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, volume, scene));
 }
 
@@ -264,9 +284,9 @@ void Inspector::nextCamera() {
 
 void Inspector::showFrame(std::size_t frame) {
     if (live_) return;
-    loadFrame(std::min(frame, pane().series().frames() - 1));
-    if (time_) time_->set(kMiddle + double(frame_));
-    window_->Render();
+    frame = std::min(frame, pane().series().frames() - 1);
+    if (time_) time_->set(kMiddle + double(frame));
+    loadFrame(frame);
 }
 
 void Inspector::loadFrame(std::size_t frame) {
@@ -339,8 +359,7 @@ vec3 Inspector::screenNormal() {
 void Inspector::drag(int x, int y) {
     if (live_ && live_->holdsLight()) return live_->dragLight(screenNormal(), sightAt(x, y, paneAt(x)));
     SlicePlane& plane = view_.slices[*grabbed_->slice];
-    const auto [lo, hi] = placesOf(pane().volume(), plane.axis);
-    plane.place = std::clamp(draggedPlace(grabbed_->position, plane.axis, sightAt(x, y, paneAt(x))) + pane().volume().anchor[plane.axis], lo, hi);
+    plane.place = placeInside(pane().volume(), plane.axis, draggedPlace(grabbed_->position, plane.axis, sightAt(x, y, paneAt(x))) + pane().volume().anchor[plane.axis]);
     refresh();
 }
 

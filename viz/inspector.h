@@ -46,9 +46,11 @@ public:
     void close() { interactor_->TerminateApp(); }
 
 private:
+    void sayWarnings() const;
     void checkCascade(const BakedVolume& volume) const;
-    // Throws InputError for planes that cut no cell, and for frames to play where there is one.
-    void checkPlanes() const;
+    // Moves planes on the outer faces of the volume into its cells. Throws InputError for those that lie outside.
+    void placePlanes();
+    // Throws InputError for frames to play where there is one.
     void checkFrames() const;
     // Pixels of the window, from its lower left corner.
     std::size_t paneAt(int x) const;

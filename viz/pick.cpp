@@ -32,7 +32,9 @@ struct Nearest {
 
 void offerCells(const BakedVolume& volume, const View& view, const Sight& sight, const ParallelFor& parallelFor, Nearest& nearest) {
     for (const ShownCell& cell : cellsOf(volume, view, parallelFor)) {
-        nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), {cell.center, {}, {}});
+        Pick pick{.position = cell.center};
+        pick.cascade = cell.cascade;
+        nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), pick);
     }
 }
 
@@ -42,7 +44,7 @@ void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight
         const float distance = (float(view.slices[k].place - volume.anchor[axis]) - sight.origin[axis]) / sight.direction[axis];
         if (!(distance > 0.0f)) continue;
         const vec3 position = sight.origin + distance * sight.direction;
-        if (cellAt(volume, position, view.cascade)) nearest.offer(distance, {position, {}, k});
+        if (const auto cell = cellAt(volume, position, view.cascade)) nearest.offer(distance, {.position = position, .normal = {}, .slice = k, .cascade = cell->cascade});
     }
 }
 
@@ -51,17 +53,17 @@ void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& n
     world.embree().lineHits(sight.origin, sight.direction, kClvFar, hits);
     for (const LineHit& hit : hits) {
         if (!hit.front && !backs) continue;
-        nearest.offer(hit.distance, {sight.origin + hit.distance * sight.direction, hit.front ? hit.normal : -hit.normal, {}});
+        nearest.offer(hit.distance, {.position = sight.origin + hit.distance * sight.direction, .normal = hit.front ? hit.normal : -hit.normal});
         return;
     }
 }
 
 }  // namespace
 
-Pick typedPick(const std::vector<double>& n, const BakedVolume& volume) {
-    Pick pick{vec3(glm::dvec3(n[0], n[1], n[2]) - volume.anchor), {}, {}};
-    if (n.size() == 6) pick.normal = normalize(vec3(n[3], n[4], n[5]));
-    return pick;
+Pick typedPick(const std::vector<double>& n, const BakedVolume& volume, ShownCascade shown) {
+    const vec3 position(glm::dvec3(n[0], n[1], n[2]) - volume.anchor);
+    if (n.size() == 6) return {.position = position, .normal = normalize(vec3(n[3], n[4], n[5]))};
+    return {.position = position, .normal = {}, .cascade = shown};
 }
 
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor) {
@@ -80,7 +82,7 @@ vec3 placeInCell(const BakedVolume& volume, const Pick& pick) {
     return pick.position + ahead * pick.normal.value_or(vec3(0.0f));
 }
 
-std::optional<ShownCell> pickedCell(const BakedVolume& volume, const Pick& pick) { return cellAt(volume, placeInCell(volume, pick), {}); }
+std::optional<ShownCell> pickedCell(const BakedVolume& volume, const Pick& pick) { return cellAt(volume, placeInCell(volume, pick), pick.cascade); }
 
 float draggedPlace(const vec3& grabbed, int axis, const Sight& sight) {
     vec3 along(0.0f);

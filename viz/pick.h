@@ -16,12 +16,13 @@ struct Sight {
 
 struct Pick {
     vec3 position;                 // m, relative to the anchor
-    std::optional<vec3> normal;    // of a surface, on the side that was looked at
-    std::optional<std::size_t> slice;  // index of the plane that was hit
+    std::optional<vec3> normal{};  // of a surface, on the side that was looked at
+    std::optional<std::size_t> slice{};  // index of the plane that was hit
+    ShownCascade cascade{};              // of the cell that is meant; none: the finest there
 };
 
-// x,y,z or x,y,z,nx,ny,nz, world space.
-Pick typedPick(const std::vector<double>& numbers, const BakedVolume& volume);
+// x,y,z or x,y,z,nx,ny,nz, world space; a place without a normal is one in the cascade that is shown.
+Pick typedPick(const std::vector<double>& numbers, const BakedVolume& volume, ShownCascade shown);
 
 // The nearest of what the view shows: a cell's cube, a slice, a surface. `world` may be null.
 std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, const View& view, const Sight& sight, const ParallelFor& parallelFor);

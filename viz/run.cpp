@@ -1,12 +1,8 @@
 #include "viz/run.h"
 
-#include <algorithm>
-#include <string>
+#include <CLI/App.hpp>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <fmt/format.h>
-
+#include "bindings/cli/exit_status.h"
 #include "bindings/cli/options.h"
 #include "viz/benchmark.h"
 #include "viz/camera_pose.h"
@@ -16,16 +12,6 @@
 
 namespace clv {
 namespace {
-
-constexpr int kSuccess = 0;
-constexpr int kRunTimeFailure = 1;
-constexpr int kBadUsageOrInput = 2;
-
-int fail(int status, std::string message) {
-    std::ranges::replace(message, '\n', ' ');
-    fmt::print(stderr, "clv-viz: {}\n", message);
-    return status;
-}
 
 // Of the file, or as live light leaves it.
 BakedVolume volumeOf(const VizOptions& options) {
@@ -43,7 +29,7 @@ BakedVolume volumeOf(const VizOptions& options) {
 
 void printPicks(const VizOptions& options) {
     const BakedVolume volume = volumeOf(options);
-    for (const std::vector<double>& numbers : options.picks) printPick(volume, typedPick(numbers, volume), options.view.lookup);
+    for (const std::vector<double>& numbers : options.picks) printPick(volume, typedPick(numbers, volume, options.view.cascade), options.view.lookup);
 }
 
 void run(const VizOptions& options) {
@@ -67,19 +53,7 @@ int runViz(int argc, const char* const* argv) {
     app.set_version_flag("--version", CLV_VERSION);
     VizOptions options;
     addVizOptions(app, options);
-    try {
-        app.parse(argc, argv);
-        run(options);
-        return kSuccess;
-    } catch (const CLI::Success& asked) {
-        return app.exit(asked);  // prints the help or the version
-    } catch (const CLI::Error& error) {
-        return fail(kBadUsageOrInput, error.what());
-    } catch (const InputError& error) {
-        return fail(kBadUsageOrInput, error.what());
-    } catch (const std::exception& error) {
-        return fail(kRunTimeFailure, error.what());
-    }
+    return exitStatusOf(app, argc, argv, [&] { run(options); });
 }
 
 }  // namespace clv

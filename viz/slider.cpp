@@ -4,6 +4,8 @@
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
 
+#include "viz/text_style.h"
+
 namespace clv {
 namespace {
 
@@ -29,10 +31,7 @@ Slider::Slider(vtkRenderWindowInteractor& interactor, const SliderPlace& place, 
     shape_->SetSliderLength(0.015);
     shape_->SetTubeWidth(0.01);
     shape_->SetEndCapLength(0.0);
-    shape_->GetTitleProperty()->SetColor(0.92, 0.92, 0.92);
-    shape_->GetTitleProperty()->ShadowOff();
-    shape_->GetTitleProperty()->SetBackgroundColor(0.09, 0.09, 0.11);
-    shape_->GetTitleProperty()->SetBackgroundOpacity(0.6);
+    setTextColors(*shape_->GetTitleProperty());
     say();
     widget_->SetInteractor(&interactor);
     widget_->SetRepresentation(shape_);

@@ -10,9 +10,13 @@ constexpr double kLetterWidth = 0.6;  // of the size of letters: Courier's are a
 void setText(vtkTextProperty& text) {
     text.SetFontFamilyToCourier();
     text.SetFontSize(kTextSize);
-    text.SetColor(0.92, 0.92, 0.92);
     text.ItalicOff();
     text.BoldOff();
+    setTextColors(text);
+}
+
+void setTextColors(vtkTextProperty& text) {
+    text.SetColor(0.92, 0.92, 0.92);
     text.ShadowOff();
     text.SetBackgroundColor(kBackground[0], kBackground[1], kBackground[2]);
     text.SetBackgroundOpacity(0.6);

@@ -12,6 +12,8 @@ inline constexpr double kLineHeight = 1.3;  // of the size of letters
 
 // Readable where surfaces lie behind.
 void setText(vtkTextProperty& text);
+// Its colours alone.
+void setTextColors(vtkTextProperty& text);
 
 // With line breaks at spaces, so that no line is wider, in pixels; a word that is wider stands alone.
 std::string wrapped(const std::string& text, double width);

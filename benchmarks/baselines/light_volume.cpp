@@ -93,6 +93,7 @@ public:
         still.layout = layout_, still.parts = parts_;
         still.seed = seed, still.originOffset = world_->scene.surfaceOffset();
         lighting_.emplace(still, [scene = &world_->scene](std::span<ClvRay> rays) { scene->trace(rays); }, world_->parallelFor);
+        lighting_->reserveRays(mostRays_);
         addLevel();
         if (automatic()) addLevel();
     }
@@ -194,6 +195,7 @@ private:
         lighting_->rays(sampler_, count);
         lighting_->trace();
         for (const LitLevel& level : lit_) add(level);
+        mostRays_ = std::max(mostRays_, count);
         rays_ += lighting_->currentRays().size();
         traced_ += lighting_->currentRays().size();
     }
@@ -239,6 +241,7 @@ private:
     std::optional<StillLighting> lighting_;
     std::vector<LitLevel> lit_;  // in play, coarse to fine
     std::size_t rays_ = 0, planned_ = 0;  // without pilots
+    std::size_t mostRays_ = 0;            // at once, in earlier runs: no frame has to take their memory
     std::uint64_t traced_ = 0;
     LevelChoice choice_;
 };

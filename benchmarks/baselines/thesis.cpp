@@ -47,6 +47,7 @@ public:
         traced_ = 0;
         maps_.emplace(world_->scene, clvHashCombine(seed, 0x3u), world_->parallelFor);
         rays_.emplace(parts_, seed, world_->scene.surfaceOffset());
+        rays_->reserve(mostRays_);
         history_.assign(level_.slots.size() * layout_.stride(), 0.0f);
     }
 
@@ -67,6 +68,7 @@ private:
         rays_->draw(sampler_, rays, world_->parallelFor);
         rays_->trace([this](std::span<ClvRay> part) { world_->scene.trace(part); }, world_->parallelFor);
         traced_ += rays_->all().size();
+        mostRays_ = std::max(mostRays_, rays);
         world_->parallelFor(partials_.size(), [&](std::size_t part) { inject(level_, layout_, kClvInjectThesis, rays_->part(part), partials_[part].target()); });
         const std::size_t stride = layout_.stride();
         forPieces(*world_, level_.slots.size(), 2048, [&](std::size_t slot) {
@@ -121,6 +123,7 @@ private:
     AlignedFloats history_;  // W, a record a cell
     std::uint32_t frames_ = 0;
     std::uint64_t traced_ = 0;
+    std::size_t mostRays_ = 0;  // at once, in earlier runs: no frame has to take their memory
 };
 
 }  // namespace

@@ -24,6 +24,13 @@ MethodCase lightVolume(const LightVolumeSettings& settings, std::vector<std::uin
 // A third of the cells at each point, at a higher error: what budgets of a few milliseconds buy.
 LightVolumeSettings quickToRead(int resolution) { return {.resolution = resolution, .lookup = kClvLookupTrilinear, .guided = false}; }
 
+// Two thirds of the numbers a cell, too.
+LightVolumeSettings quickToFill(int resolution) {
+    LightVolumeSettings settings = quickToRead(resolution);
+    settings.storage = kClvStorageCube;
+    return settings;
+}
+
 MethodCase ddgi(const DdgiSettings& settings, std::vector<std::uint64_t> rays, std::vector<int> frames) {
     return {.make = [settings] { return makeDdgi(settings); }, .rays = std::move(rays), .frames = std::move(frames)};
 }
@@ -62,6 +69,7 @@ ReportPlan quickPlan(const std::string& vulkanDevice) {
         lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, {16 * kThousand, 64 * kThousand, 256 * kThousand}),
         lightVolume(quickToRead(8), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 16 * kThousand}),
         lightVolume(quickToRead(16), {4 * kThousand, 8 * kThousand, 10 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}),
+        lightVolume(quickToFill(16), {8 * kThousand, 10 * kThousand, 12 * kThousand, 16 * kThousand, 24 * kThousand, 40 * kThousand}),
         lightVolume({.resolution = 16, .guided = false}, {4 * kThousand, 16 * kThousand, 24 * kThousand, 32 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 32}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
@@ -94,6 +102,7 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
     const std::vector<int> frames = {1, 4, 16, 64}, fewFrames = {1, 4}, merged = {4, 16, 64};
     plan.cases = {lightVolume({}, rays), lightVolume({.guided = false}, rays), lightVolume({.lookup = kClvLookupTrilinear, .guided = false}, rays)};
     for (const int resolution : {8, 16, 32}) plan.cases.push_back(lightVolume(quickToRead(resolution), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
+    for (const int resolution : {8, 16}) plan.cases.push_back(lightVolume(quickToFill(resolution), {4 * kThousand, 8 * kThousand, 12 * kThousand, 16 * kThousand, 24 * kThousand, 40 * kThousand}));
     for (const int resolution : {8, 16}) {
         LightVolumeSettings everywhere = quickToRead(resolution);
         everywhere.readers = Readers::anywhere;

@@ -61,6 +61,7 @@ Scene loadScene(const SceneOptions& options, Report& report) {
     report["lights"] = scene.lights.size();
     if (scene.droppedTriangles > 0) report["dropped_triangles"] = scene.droppedTriangles;
     for (const std::string& warning : scene.warnings) sayOnStderr("clv: " + warning);
+    if (!scene.warnings.empty()) report["scene_warnings"] = scene.warnings;
     if (!scene.ignored.empty()) report["ignored"] = scene.ignored;
     return scene;
 }

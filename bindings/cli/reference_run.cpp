@@ -32,7 +32,8 @@ std::uint64_t nextPass(const ReferenceBudget& budget, const ReferenceRun& run) {
         if (wanted == 0.0) return 0;
     } else {
         const double excess = relativeStandardError(run.results) / budget.targetError;
-        if (excess <= 1.0) return 0;
+        // No number of paths brings down an error that is no float.
+        if (excess <= 1.0 || !std::isfinite(excess)) return 0;
         // The error falls with the root of the number of samples.
         wanted = done * (excess * excess - 1.0);
     }

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,14 @@ fs::file_type typeOf(const fs::path& name) {
     const fs::file_status status = fs::status(name, error);
     if (!fs::status_known(status)) throw InputError(fmt::format("{}: expected the name of a file: {}", name.string(), error.message()));
     return status.type();
+}
+
+// The file that a symbolic link leads to: renaming would replace the link.
+fs::path behindLinks(fs::path file) {
+    constexpr int kMostLinks = 40;  // in a row; more are a circle
+    std::error_code error;
+    for (int k = 0; k < kMostLinks && fs::is_symlink(file, error); ++k) file = file.parent_path() / fs::read_symlink(file, error);
+    return file;
 }
 
 }  // namespace
@@ -50,6 +59,11 @@ StagedOutput::~StagedOutput() {
     unguardFolder(hidden_);
 }
 
+std::string withFinalNames(const std::string& message) {
+    static const std::regex hidden(R"(\.clv-[0-9A-Za-z]{6}/)");
+    return std::regex_replace(message, hidden, "");
+}
+
 std::string StagedOutput::path(const std::string& name) {
     const fs::path target = folder_ / name;
     const fs::path holder = folderOf(target);
@@ -73,9 +87,11 @@ void StagedOutput::commit() {
     names_.clear();
 }
 
-StagedFile::StagedFile(const fs::path& file) : output_(folderOf(file)) {
+StagedFile::StagedFile(const fs::path& file) : StagedFile(file, behindLinks(file)) {}
+
+StagedFile::StagedFile(const fs::path& file, const fs::path& target) : output_(folderOf(target)) {
     if (!file.has_filename()) throw InputError(fmt::format("{}: expected the name of a file", file.string()));
-    path_ = output_.path(file.filename().string());
+    path_ = output_.path(target.filename().string());
 }
 
 }  // namespace clv

@@ -29,7 +29,10 @@ private:
     std::vector<std::string> names_;
 };
 
-// The same for a single file.
+// A message in which staged files have the names that they were to get.
+std::string withFinalNames(const std::string& message);
+
+// The same for a single file. A symbolic link stays one.
 class StagedFile {
 public:
     explicit StagedFile(const std::filesystem::path& file);
@@ -38,6 +41,8 @@ public:
     void commit() { output_.commit(); }
 
 private:
+    StagedFile(const std::filesystem::path& file, const std::filesystem::path& target);
+
     StagedOutput output_;
     std::string path_;
 };

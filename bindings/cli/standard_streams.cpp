@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <mutex>
 #include <string>
 
 #include <fcntl.h>
@@ -17,6 +18,8 @@ void fillStandardDescriptors() {
 }
 
 void writeStderr(std::string_view text) {
+    static std::mutex turn;  // the signal's handling is the whole process'
+    const std::lock_guard lock(turn);
     // A pipe that nobody reads would end the process.
     const auto before = std::signal(SIGPIPE, SIG_IGN);
     std::fwrite(text.data(), 1, text.size(), stderr);

@@ -53,7 +53,8 @@ void checkPrimitive(const GltfDocument& document, const JsonReader& primitive, c
     const bool isCompressed = primitive.has("extensions") && primitive["extensions"].has(kDraco);
     const JsonReader positions = accessorOf(primitive["attributes"]["POSITION"]);
     checkType(positions, "VEC3", positions["componentType"].index() == kFloat);
-    if (!isCompressed && !positions.has("bufferView")) positions.fail("a member 'bufferView'");
+    // Without a view, positions are 0 but for those that are listed.
+    if (!isCompressed && !positions.has("bufferView") && !positions.has("sparse")) positions.fail("a member 'bufferView' or 'sparse'");
     const json& attributes = reduced["attributes"];
     if (attributes.contains("TEXCOORD_0")) {
         const JsonReader& uvs = accessors[attributes["TEXCOORD_0"].get<std::size_t>()];

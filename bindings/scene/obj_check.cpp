@@ -1,5 +1,6 @@
 #include "bindings/scene/obj_check.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cfloat>
 #include <charconv>
@@ -70,14 +71,14 @@ std::optional<double> number(const std::string& word) {
     return {};
 }
 
-std::vector<double> numbers(const Line& line, std::istringstream& words, const std::set<std::size_t>& counts, const std::string& expected) {
+std::vector<double> numbers(const Line& line, std::istringstream& words, std::initializer_list<std::size_t> counts, const char* expected) {
     std::vector<double> values;
     for (std::string word; words >> word;) {
         const std::optional<double> value = number(word);
         if (!value) line.fail(fmt::format("{} such as 0.5 or -1e3, not '{}'", expected, word));
         values.push_back(*value);
     }
-    if (!counts.contains(values.size())) line.fail(fmt::format("{}, not {}", expected, values.size()));
+    if (std::ranges::find(counts, values.size()) == counts.end()) line.fail(fmt::format("{}, not {}", expected, values.size()));
     return values;
 }
 

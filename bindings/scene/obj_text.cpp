@@ -12,10 +12,9 @@ namespace clv {
 namespace {
 
 std::string_view trimmed(std::string_view line) {
-    if (line.starts_with('v') || line.starts_with('f')) line = line.substr(0, line.find('#'));
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return line.substr(first, line.find_last_not_of(" \t") - first + 1);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (line.starts_with('v') || line.starts_with('f') || line.starts_with('K')) line = line.substr(0, line.find('#'));
+    return line.substr(0, line.find_last_not_of(" \t") + 1);
 }
 
 // Appends the line; assimp takes no number that begins with its point.

@@ -8,6 +8,10 @@
 
 namespace clv {
 
+bool isWithinReach(const glm::dvec3& p) {
+    return std::abs(p.x) <= kFarthestCoordinate && std::abs(p.y) <= kFarthestCoordinate && std::abs(p.z) <= kFarthestCoordinate;
+}
+
 void checkReach(const glm::dvec3& positionWorld, const std::string& place) {
     for (int axis = 0; axis < 3; ++axis)
         // Negated, so that what is not a number is refused too.

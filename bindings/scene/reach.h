@@ -9,6 +9,9 @@ namespace clv {
 constexpr double kFarthestCoordinate = 1e12;  // m, world space
 constexpr double kWidestScene = 1e9;          // m, along each axis
 
+// False for a position beyond kFarthestCoordinate, or not of numbers.
+bool isWithinReach(const glm::dvec3& positionWorld);
+
 // Throws InputError, beginning with `place`, for a position beyond kFarthestCoordinate or not of numbers.
 void checkReach(const glm::dvec3& positionWorld, const std::string& place);
 

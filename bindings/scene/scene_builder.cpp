@@ -83,6 +83,7 @@ void SceneBuilder::checkVertices(const std::string& source) const {
     for (std::size_t t = 0; t < scene_.triangles.size(); ++t)
         for (int corner = 0; corner < 3; ++corner) {
             std::uint32_t vertex = scene_.triangles[t][corner];
+            if (isWithinReach(positionsWorld_[vertex])) continue;
             checkReach(positionsWorld_[vertex], fmt::format("{}: node '{}', vertex {}", source, scene_.nodeNames[scene_.nodeOf[t]], vertex));
         }
 }

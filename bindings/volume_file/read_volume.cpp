@@ -147,7 +147,8 @@ BakedVolume readVolume(const std::string& vtm, const ParallelFor& parallelFor) {
         volume.cascades[i] = std::move(read[i].cascade);
         const BakedCascade &first = volume.cascades[0], &next = volume.cascades[i];
         if (next.estimates.size() != first.estimates.size() || next.dynamicity.empty() != first.dynamicity.empty()) fail("expected the same arrays as in " + pieces[0]);
-        if (!content || JsonReader(pieces[i], read[0].about)["content"].text() != content) fail("expected a piece of the volume that " + vtm + " lists");
+        if (!content) throw InputError(fmt::format("{}: expected the attribute content, which names its volume", vtm));
+        if (JsonReader(pieces[i], read[0].about)["content"].text() != content) fail("expected a piece of the volume that " + vtm + " lists");
     }
     return volume;
 }

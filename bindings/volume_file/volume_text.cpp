@@ -109,8 +109,9 @@ std::string contentOf(const BakedVolume& volume, const Json& description) {
     const std::string text = description.dump();
     sum.add(std::as_bytes(std::span(text)));
     for (const BakedCascade& cascade : volume.cascades) {
-        sum.add(std::as_bytes(std::span(cascade.level.table)));
-        for (const std::vector<float>& estimate : cascade.estimates) sum.add(std::as_bytes(std::span(estimate)));
+        const auto add = [&sum](const auto& values) { sum.add(std::as_bytes(std::span(values))); };
+        add(cascade.level.table), add(cascade.level.slots), add(cascade.level.splits), add(cascade.samples), add(cascade.dynamicity);
+        for (const std::vector<float>& estimate : cascade.estimates) add(estimate);
     }
     return fmt::format("{:016x}", sum.value());
 }

@@ -53,6 +53,27 @@ TEST_F(Staged, commitReplacesTheOldFile) {
     EXPECT_EQ(read(file("a.txt")), "new");
 }
 
+TEST_F(Staged, aLinkStaysAndItsFileIsReplaced) {
+    std::filesystem::create_directory(file("far"));
+    write("far/a.txt", "old");
+    std::filesystem::create_symlink("far/a.txt", file("a.txt"));
+    std::filesystem::create_symlink("far/b.txt", file("b.txt"));
+    for (const char* name : {"a.txt", "b.txt"}) {
+        StagedFile output(file(name));
+        std::ofstream(output.path()) << "new";
+        output.commit();
+        EXPECT_TRUE(std::filesystem::is_symlink(file(name)));
+        EXPECT_EQ(read(file(std::string("far/") + name)), "new");
+    }
+    EXPECT_EQ(listing("far"), (Names{"a.txt", "b.txt"}));
+}
+
+TEST_F(Staged, messagesNameFilesAsTheyWereToBeCalled) {
+    StagedOutput output(folder_);
+    EXPECT_EQ(withFinalNames(output.path("a.txt") + ": no room"), file("a.txt") + ": no room");
+    EXPECT_EQ(withFinalNames("a.clv: .clv-1"), "a.clv: .clv-1");
+}
+
 TEST_F(Staged, aPlaceThatCannotBeWrittenIsRefusedAtOnce) {
     EXPECT_THROW(StagedFile(file("missing/a.txt")), InputError);
     write("plain", "");

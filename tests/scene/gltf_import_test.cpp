@@ -226,6 +226,38 @@ TEST_F(GltfImport, readsSparseAccessors) {
     expectNear(corner(load(gltf), 0, 1), {7, 0, 0});
 }
 
+TEST_F(GltfImport, positionsThatAreListedAloneAreZeroElsewhere) {
+    TestGltf gltf = triangleGltf();
+    padBytes(gltf.binary, 4, 0);
+    const std::uint16_t indices[] = {0, 2};
+    const float listed[] = {7, 0, 0, 0, 8, 0};
+    const std::size_t begin = gltf.binary.size();
+    appendBytes(gltf.binary, indices, sizeof indices);
+    appendBytes(gltf.binary, listed, sizeof listed);
+    gltf.document["buffers"][0]["byteLength"] = gltf.binary.size();
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", 4}});
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin + 4}, {"byteLength", 24}});
+    gltf.document["accessors"][0]["sparse"] = {{"count", 2}, {"indices", {{"bufferView", 3}, {"componentType", 5123}}}, {"values", {{"bufferView", 4}}}};
+    gltf.document["accessors"][0].erase("bufferView");
+    const Scene scene = load(gltf);
+    expectNear(corner(scene, 0, 0), {7, 0, 0});
+    expectNear(corner(scene, 0, 1), {0, 0, 0});
+    expectNear(corner(scene, 0, 2), {0, 8, 0});
+}
+
+TEST_F(GltfImport, listedIndicesLieBelowTheNumberOfVertices) {
+    TestGltf gltf = triangleGltf();
+    padBytes(gltf.binary, 4, 0);
+    const std::uint16_t listed[] = {1, 9};
+    const std::size_t begin = gltf.binary.size();
+    appendBytes(gltf.binary, listed, sizeof listed);
+    gltf.document["buffers"][0]["byteLength"] = gltf.binary.size();
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", 2}});
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin + 2}, {"byteLength", 2}});
+    gltf.document["accessors"][2]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 3}, {"componentType", 5123}}}, {"values", {{"bufferView", 4}}}};
+    EXPECT_TRUE(errorOf(gltf).starts_with(file("test.glb") + ": meshes")) << errorOf(gltf);
+}
+
 TEST_F(GltfImport, dropsAndCountsZeroAreaTriangles) {
     TestGltf gltf = triangleGltf();
     const std::uint16_t indices[] = {0, 1, 2, 1, 1, 2};

@@ -63,6 +63,8 @@ TEST_F(ObjMaterial, isFoundBehindAByteOrderMarkAndBlanksAndWithAnyLineEnds) {
     EXPECT_EQ(albedoOf(with(whole, "\n", "  ")), half_);
     EXPECT_EQ(albedoOf(with(whole, "\r\n")), half_);
     EXPECT_EQ(albedoOf(with(whole, "\r")), half_);
+    EXPECT_EQ(albedoOf(whole, "newmtl half\n  Kd 0.5 0.5 0.5 # grey\n"), half_);
+    EXPECT_EQ(albedoOf("mtllib half.mtl\n  v 0 0 0 # first\n\tv 1 0 0#second\nv 1 1 0\nusemtl half\n f 1 2 3 # face\n"), half_);
     EXPECT_EQ(albedoOf("mtllib half.mtl\nv 0 0 0 # first\nv 1 0 0\nv 1 1 0\nusemtl half\nf 1 2 3 # face 4\n"), half_);
 }
 

@@ -69,6 +69,24 @@ TEST(Caption, isBrokenAtSpacesWhereThePaneEnds) {
     EXPECT_EQ(wrapped("", tenLetters), "");
 }
 
+TEST(Difference, isShownWhereEitherFileHasLight) {
+    const BakedVolume lit = hallVolume();
+    BakedVolume dark = lit;
+    for (BakedCascade& cascade : dark.cascades) {
+        for (auto& estimate : cascade.estimates) std::ranges::fill(estimate, 0.0f);
+    }
+    View view;
+    view.subject = Subject::irradiance;
+    view.carrier = Carrier::cells;
+    Drawing lost, gained, none;
+    drawDifference(lit, dark, Quantity::irradiance, view, serialFor(), lost);
+    drawDifference(dark, lit, Quantity::irradiance, view, serialFor(), gained);
+    drawDifference(dark, dark, Quantity::irradiance, view, serialFor(), none);
+    EXPECT_GT(lost.cubes.size(), 100u);
+    EXPECT_EQ(gained.cubes.size(), lost.cubes.size());
+    EXPECT_TRUE(none.cubes.empty());
+}
+
 TEST(Overview, showsWhatOfTheSceneTheOutermostCascadeHolds) {
     BakedVolume volume;
     volume.cascades.resize(2);

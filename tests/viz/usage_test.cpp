@@ -1,4 +1,7 @@
 // What clv-viz says to bad usage, and what it prints of a typed position.
+#include <sys/wait.h>
+
+#include "support/hall_volume.h"
 #include "viz/virtual_display.h"
 #include "viz/viz_command.h"
 
@@ -39,6 +42,19 @@ TEST_F(VizUsage, seriesArePlayedAndPlanesCutTheVolumeOrAWordIsSaid) {
     const std::string volume = bake("cornell", 4);
     EXPECT_TRUE(contains(runViz({volume, "--play"}).err, "--play: expected a series"));
     EXPECT_TRUE(contains(runViz({volume, "--view", "open", "--slice", "y=-3"}).err, "--slice y=-3: expected a place in the volume, from "));
+}
+
+TEST_F(VizUsage, liveLightNeedsTheScene) {
+    const VirtualDisplay display;
+    writeVolume("V.vtm", hallVolume(), pathOf());
+    const CommandResult result = runViz({file("V.vtm"), "--live"});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_TRUE(contains(result.err, "--live: expected the scene of the volume")) << result.err;
+}
+
+TEST_F(VizUsage, aClosedStderrChangesNoExitStatus) {
+    const std::string command = std::string(kProgram) + " " + file("none.vtm") + " --out " + file("p.png") + " 2>&-";
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
 }
 
 TEST_F(VizUsage, aMissingFileIsNamed) {

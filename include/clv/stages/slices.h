@@ -91,7 +91,8 @@ CLV_FN vec4 clvLineOnSide(ClvCoefficients sides, uint side, vec3 flux, float dyn
     return vec4(flux.x * cosine, flux.y * cosine, flux.z * cosine, cosine > 0.0f ? dynamicity : 0.0f);
 }
 
-// Images of 16 bits hold sums up to this; of larger ones, infinite there, it is what is left.
+// Images of 16 bits hold sums up to this; of larger ones, infinite there, it is what is left. In 32 bits no sum is infinite: rays are
+// limited by kClvMostDeposit.
 CLV_CONST float kClvMostInHalf = 65504.0f;
 
 CLV_FN float clvSliceSum(float sum) {
