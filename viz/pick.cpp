@@ -23,19 +23,19 @@ float distanceToCube(const Sight& sight, const vec3& center, float edge) {
 // The nearest of what was found so far.
 struct Nearest {
     float distance = HUGE_VALF;
-    std::optional<Pick> pick;
+    Pick pick{};
 
     void offer(float at, const Pick& candidate) {
         if (at < distance) distance = at, pick = candidate;
     }
+    std::optional<Pick> found() const { return distance < HUGE_VALF ? std::optional(pick) : std::nullopt; }
 };
 
 void offerCells(const BakedVolume& volume, const View& view, const Sight& sight, const ParallelFor& parallelFor, Nearest& nearest) {
-    for (const ShownCell& cell : cellsOf(volume, view, parallelFor)) {
-        Pick pick{.position = cell.center};
-        pick.cascade = cell.cascade;
-        nearest.offer(distanceToCube(sight, cell.center, kCubeShare * cell.edge), pick);
-    }
+    const std::vector<ShownCell> cells = cellsOf(volume, view, parallelFor);
+    const auto distanceTo = [&](const ShownCell& cell) { return distanceToCube(sight, cell.center, kCubeShare * cell.edge); };
+    const auto first = std::ranges::min_element(cells, {}, distanceTo);
+    if (first != cells.end()) nearest.offer(distanceTo(*first), {first->center, {}, {}, first->cascade});
 }
 
 void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight, Nearest& nearest) {
@@ -44,7 +44,7 @@ void offerSlices(const BakedVolume& volume, const View& view, const Sight& sight
         const float distance = (float(view.slices[k].place - volume.anchor[axis]) - sight.origin[axis]) / sight.direction[axis];
         if (!(distance > 0.0f)) continue;
         const vec3 position = sight.origin + distance * sight.direction;
-        if (const auto cell = cellAt(volume, position, view.cascade)) nearest.offer(distance, {.position = position, .normal = {}, .slice = k, .cascade = cell->cascade});
+        if (const auto cell = cellAt(volume, position, view.cascade)) nearest.offer(distance, {position, {}, k, cell->cascade});
     }
 }
 
@@ -53,7 +53,7 @@ void offerSurface(const World& world, bool backs, const Sight& sight, Nearest& n
     world.embree().lineHits(sight.origin, sight.direction, kClvFar, hits);
     for (const LineHit& hit : hits) {
         if (!hit.front && !backs) continue;
-        nearest.offer(hit.distance, {.position = sight.origin + hit.distance * sight.direction, .normal = hit.front ? hit.normal : -hit.normal});
+        nearest.offer(hit.distance, {sight.origin + hit.distance * sight.direction, hit.front ? hit.normal : -hit.normal, {}, {}});
         return;
     }
 }
@@ -74,7 +74,7 @@ std::optional<Pick> pickAlong(const BakedVolume& volume, const World* world, con
     if (quantity && carrier == Carrier::slices) offerSlices(volume, view, sight, nearest);
     if (showsCubes(view)) offerCells(volume, view, sight, parallelFor, nearest);
     if (world && surfaces) offerSurface(*world, view.backs, sight, nearest);
-    return nearest.pick;
+    return nearest.found();
 }
 
 vec3 placeInCell(const BakedVolume& volume, const Pick& pick) {

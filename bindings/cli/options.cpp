@@ -15,6 +15,12 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 
+template <class Value>
+CLI::Option* addCount(CLI::App& command, const std::string& name, Value& value, const std::string& description) {
+    return command.add_option_function<std::string>(
+        name, [name, &value](const std::string& text) { value = parseCount(name, text); }, description + " (65536, 64k, 4M)");
+}
+
 }  // namespace
 
 void addCommonOptions(CLI::App& command, CommonOptions& options) {
@@ -80,10 +86,8 @@ std::uint64_t parseCount(const std::string& option, const std::string& text) {
     return count << shift;
 }
 
-CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::uint64_t& value, const std::string& description) {
-    return command.add_option_function<std::string>(
-        name, [name, &value](const std::string& text) { value = parseCount(name, text); }, description + " (65536, 64k, 4M)");
-}
+CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::uint64_t& value, const std::string& description) { return addCount(command, name, value, description); }
+CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::optional<std::uint64_t>& value, const std::string& description) { return addCount(command, name, value, description); }
 
 CLI::Validator finiteNumber(double above, double atMost, const std::string& expected) {
     return CLI::Validator(

@@ -1,6 +1,7 @@
 // Options that several commands share.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <CLI/App.hpp>
@@ -42,6 +43,7 @@ Scene loadScene(const SceneOptions& options, Report& report);
 // "65536", "64k" or "4M" (k = 1024, M = 1024 k), at least 1. Throws InputError that names the option.
 std::uint64_t parseCount(const std::string& option, const std::string& text);
 CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::uint64_t& value, const std::string& description);
+CLI::Option* addCountOption(CLI::App& command, const std::string& name, std::optional<std::uint64_t>& value, const std::string& description);
 // Checks for a number in (above, atMost]; `expected` says so in words.
 CLI::Validator finiteNumber(double above, double atMost, const std::string& expected);
 CLI::Option* addPositiveOption(CLI::App& command, const std::string& name, double& value, const std::string& description);

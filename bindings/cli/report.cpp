@@ -24,7 +24,6 @@ namespace clv {
 namespace {
 
 constexpr int kMostPoints = 1 << 20, kMostRepeats = 1000;
-constexpr std::uint64_t kMostCount = std::uint64_t(1) << 40;
 
 // As the program was started, with quotes where a word needs them.
 std::string commandLine() {
@@ -138,9 +137,9 @@ void addReportCommand(CLI::App& app) {
     command->add_option("--scenes", options->scenes, "Scenes in place of the report's own: files, or names of built-in ones");
     command->add_option("--compare", options->compare, "The report.json of an earlier report; exit with 1 where an error or a ratio of times has become worse");
     command->add_option("--methods", options->methods, "Those of the report's methods to measure");
-    command->add_option("--most-rays", options->mostRays, "Leave out what takes more rays a frame")->check(CLI::Range(std::uint64_t(1), kMostCount));
+    addCountOption(*command, "--most-rays", options->mostRays, "Leave out what takes more rays a frame");
     command->add_option("--points", options->points, "Points where errors are measured")->check(CLI::Range(1, kMostPoints));
-    command->add_option("--truth-samples", options->truthSamples, "Paths a point of the truth")->check(CLI::Range(std::uint64_t(1), kMostCount));
+    addCountOption(*command, "--truth-samples", options->truthSamples, "Paths a point of the truth");
     command->add_option("--repeats", options->repeats, "Seeds a measurement")->check(CLI::Range(1, kMostRepeats));
     addCommonOptions(*command, options->common);
     command->callback([options, command] { options->run(*command); });

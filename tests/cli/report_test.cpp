@@ -66,7 +66,7 @@ TEST_F(ReportCommand, whereNoVulkanDeviceIsItSaysSoAndMeasuresTheRest) {
     setenv("VK_DRIVER_FILES", "/nowhere", 1);
     setenv("VK_ICD_FILENAMES", "/nowhere", 1);
     const CommandResult result = runCommand({"report", "--out", file("r"), "--scenes", "white_sphere", "--methods", "path_tracing", "--points", "20", "--truth-samples", "64",
-                                             "--repeats", "1", "--most-rays", "16384", "--json"});
+                                             "--repeats", "1", "--most-rays", "16k", "--json"});
     unsetenv("VK_DRIVER_FILES");
     unsetenv("VK_ICD_FILENAMES");
     ASSERT_EQ(result.status, 0) << result.err;
