@@ -45,7 +45,9 @@ Report promiseOf(const Forecast& forecast) {
 
 void addChoiceOptions(CLI::App& command, ChoiceOptions& options) {
     auto* budget = addPositiveOption(command, "--budget-ms", options.budgetMs, "Choose what errs least within this run time of a frame, ms");
-    addPositiveOption(command, "--target-error", options.targetError, "Choose the fastest that errs at most so much (relative RMSE; 0.1 is 10 %)")->excludes(budget);
+    addPositiveOption(command, "--target-error", options.targetError, "Choose the fastest that errs at most so much (relative RMSE; 0.1 is 10 %)")
+        ->check(finiteNumber(0.0, 1.0, "a share such as 0.1, at most 1"))
+        ->excludes(budget);
     addPositiveOption(command, "--readers", options.readers, "Points that receive the light; their lookups are in the time")->capture_default_str();
     command.add_option("--points", options.points, "Points where the scene's errors are measured, to foretell them and to compare")->check(CLI::Range(1, kMostPlanPoints))->capture_default_str();
     command.add_flag("--promise-only", options.promiseOnly, "Do not run the choice to compare it with the promise");

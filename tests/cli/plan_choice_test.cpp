@@ -62,6 +62,9 @@ TEST_F(PlanChoice, whatCannotBeHadIsRefusedWithWhatCan) {
         EXPECT_NE(result.err.find(std::string(option) + " 1e-06: expected at least"), std::string::npos) << result.err;
     }
     EXPECT_EQ(plan({"--budget-ms", "5", "--target-error", "0.1"}).status, 2);
+    const CommandResult percent = plan({"--target-error", "20"});
+    EXPECT_EQ(percent.status, 2);
+    EXPECT_NE(percent.err.find("at most 1"), std::string::npos) << percent.err;
     EXPECT_EQ(plan({"--budget-ms", "0"}).status, 2);
     EXPECT_EQ(plan({"--budget-ms", "5", "--points", "0"}).status, 2);
 }
