@@ -263,7 +263,8 @@ void Inspector::placeCamera(const std::string& camera) {
     const Scene* scene = pane().world() ? &pane().world()->scene() : nullptr;
     const BakedVolume& volume = pane().volume();
     // Cascades that follow the view would lead it ever farther away.
-    const Bounds bounds = volume.cascades.empty() || (scene && options_.live.on && volume.cascades.size() > 1) ? scene->bounds : litBounds(volume);
+    const bool sceneAlone = volume.cascades.empty() || (scene && options_.live.on && volume.cascades.size() > 1);
+    const Bounds bounds = sceneAlone ? scene->bounds : fillsSpace(view_) ? boundsOf(volume.cascades.back().level.volume) : litBounds(volume);
     place(*camera_, camera.empty() ? overview(bounds, aspect()) : parsePose(camera, volume, scene));
 }
 

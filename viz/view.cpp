@@ -28,6 +28,10 @@ bool showsCubes(const View& view) {
     return view.subject == Subject::cubes || ((quantityOf(view.subject) || view.subject == Subject::error) && carrierOf(view) == Carrier::cells);
 }
 
+bool fillsSpace(const View& view) {
+    return showsCubes(view) || ((quantityOf(view.subject) || view.subject == Subject::error) && carrierOf(view) == Carrier::volume);
+}
+
 std::optional<Quantity> quantityOf(Subject subject) {
     const int index = int(subject) - int(Subject::irradiance);
     return index >= 0 && index < kQuantities ? std::optional(Quantity(index)) : std::nullopt;

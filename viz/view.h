@@ -62,5 +62,7 @@ struct View {
 Carrier carrierOf(const View& view);
 // Whether cells are drawn as cubes.
 bool showsCubes(const View& view);
+// Whether what is drawn takes up all of the cascades, cubes or a cloud, so that a camera among it sees little.
+bool fillsSpace(const View& view);
 
 }  // namespace clv
