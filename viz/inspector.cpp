@@ -58,7 +58,7 @@ Inspector::Inspector(const VizOptions& options) : options_(options), view_(optio
     if (options.without || options.truth) panes_.push_back(panes_[0]);
     if (!options.other.empty()) {
         panes_.push_back(std::make_shared<Pane>(options.other, options.scene, 0, parallelFor_));
-        panes_[1]->loadFrame(options.frame, parallelFor_);
+        if (options.frame != 0) panes_[1]->loadFrame(options.frame, parallelFor_);  // it may have fewer frames
     }
     sayWarnings();
     placeCamera(options.camera);

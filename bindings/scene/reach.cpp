@@ -8,14 +8,18 @@
 
 namespace clv {
 
-bool isWithinReach(const glm::dvec3& p) {
-    return std::abs(p.x) <= kFarthestCoordinate && std::abs(p.y) <= kFarthestCoordinate && std::abs(p.z) <= kFarthestCoordinate;
-}
+namespace {
+
+// Also false of what is not a number.
+bool isWithinReach(double coordinate) { return std::abs(coordinate) <= kFarthestCoordinate; }
+
+}  // namespace
+
+bool isWithinReach(const glm::dvec3& p) { return isWithinReach(p.x) && isWithinReach(p.y) && isWithinReach(p.z); }
 
 void checkReach(const glm::dvec3& positionWorld, const std::string& place) {
     for (int axis = 0; axis < 3; ++axis)
-        // Negated, so that what is not a number is refused too.
-        if (!(std::abs(positionWorld[axis]) <= kFarthestCoordinate))
+        if (!isWithinReach(positionWorld[axis]))
             throw InputError(fmt::format("{}: expected coordinates of at most {:g} m, found {:g}", place, kFarthestCoordinate, positionWorld[axis]));
 }
 
