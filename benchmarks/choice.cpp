@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/measured_scene.h"
-#include "bindings/cli/scene_facts.h"
 #include "bindings/embree/task_pool.h"
 #include "bindings/scene/generated_scene.h"
+#include "clv/cpu/resolution.h"
 
 namespace {
 

@@ -17,7 +17,6 @@
 namespace clv {
 namespace {
 
-constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
 constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
 constexpr std::size_t kPilotShare = 8;             // one ray in so many
 constexpr std::size_t kLeastPilots = 2 << 10;      // fewer show too little, and a guide costs what thousands of rays do
@@ -94,8 +93,8 @@ public:
         still.seed = seed, still.originOffset = world_->scene.surfaceOffset();
         lighting_.emplace(still, [scene = &world_->scene](std::span<ClvRay> rays) { scene->trace(rays); }, world_->parallelFor);
         lighting_->reserveRays(mostRays_);
-        addLevel();
-        if (automatic()) addLevel();
+        // Where the library chooses, those that one of its first two may be: the first frame says how many rays there are.
+        for (int k = 0; k < (automatic() ? 3 : 1); ++k) addLevel();
     }
 
     void renderMaps() override {
@@ -108,6 +107,7 @@ public:
         if (rays_ == 0) {
             left -= pilot(rays);
             planned_ = std::max(settings_.plannedRays, left);
+            if (automatic()) keepFirst(std::max(settings_.plannedRays, rays));
         }
         while (left > 0) {
             // While levels are judged all of them are filled, so that ends with about the first third of the rays.
@@ -161,13 +161,22 @@ private:
         const auto needed = settings_.readers == Readers::anywhere ? std::vector<std::uint8_t>() : neededCells(volume, readers);
         BuiltLevel& built = built_.emplace_back(BuiltLevel{resolution, buildLevel(volume, world_->scene.probe(), needed, world_->parallelFor), {}, {}});
         if (settings_.keptWeights) built.points = LookupTable(built.level, points_, lookup_, world_->parallelFor);
-        built.judges = LookupTable(built.level, judges_, {}, world_->parallelFor);
+        built.judges = LookupTable(built.level, judges_, lookup_, world_->parallelFor);
     }
 
     // The next finer level joins those in play, still without light.
     LitLevel& addLevel() {
         const std::size_t next = lit_.empty() ? 0 : std::size_t(lit_.back().built - built_.data()) + 1;
-        return lit_.emplace_back(LitLevel{&built_[next], &lighting_->addLevel(built_[next].level)});
+        // One that waited for the first frame in vain has its memory already.
+        Volume& volume = next < lighting_->volumes().size() ? lighting_->volumes()[next] : lighting_->addLevel(built_[next].level);
+        return lit_.emplace_back(LitLevel{&built_[next], &volume});
+    }
+
+    // Of the levels that wait for the first frame, the two to begin with.
+    void keepFirst(std::size_t planned) {
+        const int first = resolutionsFor(double(planned), settings_.lookup).front();
+        if (lit_.front().built->resolution < first) lit_.erase(lit_.begin());
+        lit_.erase(lit_.begin() + 2, lit_.end());
     }
 
     void pickTexels() { sampler_.build(texels_, maps_->side(), world_->parallelFor, guide()); }

@@ -16,7 +16,8 @@ constexpr double kSlowestFall = -0.3, kFastestFall = -0.8, kFallStep = 0.005;
 
 double lineSeconds(const Trial& trial, double rays) {
     const double slope = std::max(0.0, (trial.seconds - trial.fewSeconds) / (trial.rays - trial.fewRays));
-    return std::max(0.0, trial.fewSeconds - slope * trial.fewRays) + slope * rays;
+    const double offset = rays < trial.fewRays ? trial.leastSeconds - slope * trial.leastRays : trial.fewSeconds - slope * trial.fewRays;
+    return std::max(0.0, offset) + slope * rays;
 }
 
 double seconds(const Trial& trial, double rays, double growth) {

@@ -12,8 +12,8 @@ namespace clv {
 // A few frames of one resolution in a scene.
 struct Trial {
     int resolution = 32;               // about resolution^3 cells
-    double fewRays = 0, rays = 0;      // of a frame
-    double fewSeconds = 0, seconds = 0;  // of those frames, lookups among them
+    double leastRays = 0, fewRays = 0, rays = 0;  // of a frame; from fewRays on some of them are pilots
+    double leastSeconds = 0, fewSeconds = 0, seconds = 0;  // of those frames, lookups among them
     double noise = 0;                  // relative standard deviation between frames of `rays`
     double floor = 0;                  // relative RMSE that remains without the noise
 };
@@ -35,8 +35,8 @@ struct Forecast {
     double secondsFactor = 1, errorFactor = 1;  // with 95 % the true value is at most this many times larger or smaller
 };
 
-// Seconds grow along the line through the trial's two frames, and beyond by (rays / trial's rays)^timeGrowth; noise falls by
-// (rays / trial's rays)^noiseFall on top of the floor.
+// Seconds grow along the line through the trial's two larger frames, before them along its parallel through the least one, and beyond
+// them by (rays / trial's rays)^timeGrowth; noise falls by (rays / trial's rays)^noiseFall on top of the floor.
 class CostModel {
 public:
     // Needs at least three outcomes with more rays than their trials.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint64_t kTruthSamples = 2048;
 constexpr std::uint32_t kTrialPointSeed = 7;
-constexpr double kFewRays = 16 << 10, kTrialRays = 64 << 10;  // both enough for rays to be guided
+constexpr double kLeastRays = 4 << 10;                        // too few for pilots
+constexpr double kFewRays = 16 << 10, kTrialRays = 64 << 10;  // both enough for them
 constexpr int kTrialRepeats = 5;
 // Of calibration: scenes of several kinds, none of them alike, and frames beside those of the trials.
 constexpr const char* kBuiltinScenes[] = {"cornell", "two_rooms"};
@@ -74,8 +75,8 @@ TrialRun::Frames TrialRun::run(double rays, int repeats) {
 }
 
 Trial TrialRun::trial() {
-    const Frames few = run(kFewRays, kTrialRepeats), many = run(kTrialRays, kTrialRepeats);
-    return {resolution_, kFewRays, kTrialRays, few.seconds, many.seconds, many.noise, std::sqrt(std::max(0.0, many.error * many.error - many.noise * many.noise))};
+    const Frames least = run(kLeastRays, kTrialRepeats), few = run(kFewRays, kTrialRepeats), many = run(kTrialRays, kTrialRepeats);
+    return {resolution_, kLeastRays, kFewRays, kTrialRays, least.seconds, few.seconds, many.seconds, many.noise, std::sqrt(std::max(0.0, many.error * many.error - many.noise * many.noise))};
 }
 
 Outcome TrialRun::measure(double rays, int repeats) {

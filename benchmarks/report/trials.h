@@ -44,7 +44,7 @@ private:
 };
 
 // Resolutions that are tried.
-inline constexpr int kTrialResolutions[] = {16, 32, 64};
+inline constexpr int kTrialResolutions[] = {8, 16, 32, 64};
 
 // Fits the model to trials in scenes of its own; about a minute on two cores.
 CostModel calibrate(double readers, const ParallelFor& parallelFor, const std::function<void(double)>& onProgress);

@@ -107,7 +107,7 @@ void addBakeCommand(CLI::App& app) {
     addSceneOptions(*command, options->scene, true);
     command->add_option("--out", options->out, "V.vtm to write, beside a folder V with its pieces; V.pvd for a series of frames")->required();
     addLightOptions(*command, options->light);
-    options->light.resolution = kResolutions[1];
+    options->light.resolution = 32;
     command->get_option("--resolution")->description("A grid of about N^3 cells; of each cascade, cubes of N^3")->capture_default_str();
     command->add_option("--motion", options->motion, "A JSON file of lights and a camera that move, with as many frames unless --frames says otherwise; --rays are those of one frame, 256k unless given");
     addCascadeOptions(*command, options->cascades);

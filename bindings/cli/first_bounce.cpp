@@ -64,8 +64,10 @@ void FirstBounce::run(const AfterRound& afterRound) {
     if (!pilot(options.seconds > 0.0 ? kFirstRound : budget)) return;
     if (options.seconds <= 0.0) budget -= pilots_;
     for (const ClvVolume& grid : job_.grids) addLevel(options.resolution, job_.makeLevel(grid));
-    if (job_.grids.empty()) addLevel(job_.automatic ? kResolutions[0] : options.resolution);
-    if (job_.automatic) addLevel(kResolutions[1]);
+    if (job_.grids.empty() && !job_.automatic) addLevel(options.resolution);
+    if (job_.automatic) {
+        for (const int resolution : resolutionsFor(double(budget) + double(pilots_)).first(2)) addLevel(resolution);
+    }
 
     // While levels are judged all of them are filled, so this ends with about the first quarter of the rays. A power of two: the
     // halves of other stretches of the sequence fill each other's gaps, and what is meant to judge the bias shows less of it.

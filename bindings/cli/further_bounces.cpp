@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kMostSweeps = 24;                    // bounces
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left to the extrapolation
-// Rays of all further bounces from which on they get the second and the third of kResolutions.
+// Of further bounces where none is given, by the rays of all of them.
+constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
 // Above this ratio from bounce to bounce the sum has no stable limit.
 constexpr double kLargestRatio = 0.9995;
@@ -71,7 +72,7 @@ private:
     // that keeps its noise as low.
     std::pair<int, Level> chooseLevel(std::span<const LitLevel> first) {
         if (!job_.automatic) return {first[0].resolution, first[0].light->level()};
-        const int resolution = budget_ < kRaysForMiddle ? kResolutions[0] : budget_ < kRaysForFine ? kResolutions[1] : kResolutions[2];
+        const int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
         return {resolution, job_.makeLevel(resolution)};
     }
 

@@ -7,6 +7,7 @@
 #include "bindings/embree/light_check.h"
 #include "bindings/embree/visible_points.h"
 #include "clv/cpu/build_level.h"
+#include "clv/cpu/resolution.h"
 
 namespace clv {
 namespace {
@@ -60,7 +61,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
 }
 
 void LightJob::heedLights() {
-    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, options.resolution > 0 ? options.resolution : kResolutions[0], options).cellSize, parallelFor);
+    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, options.resolution > 0 ? options.resolution : resolutionsFor(double(options.rays)).front(), options).cellSize, parallelFor);
     report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
     if (!heed.insideOut) return;
     turned_ = scene;

@@ -10,6 +10,7 @@
 #include "bindings/cli/options.h"
 #include "bindings/cli/plan_choice.h"
 #include "bindings/cli/scene_facts.h"
+#include "clv/cpu/resolution.h"
 
 namespace clv {
 namespace {
@@ -57,7 +58,7 @@ struct PlanCommand {
             report["decided_while_running"] = open;
             report["channels"] = needs.channels;
             report["resolutions"] = Report::array();
-            const std::span<const int> resolutions = light.resolution > 0 ? std::span(&light.resolution, 1) : std::span(kResolutions);
+            const std::span<const int> resolutions = light.resolution > 0 ? std::span(&light.resolution, 1) : resolutionsFor(double(light.rays));
             for (int resolution : resolutions) report["resolutions"].push_back(describeResolution(loaded, resolution, light, needs));
         }
         if (choice.asked()) {

@@ -9,8 +9,6 @@
 
 namespace clv {
 
-constexpr int kResolutions[] = {16, 32, 64, 128};  // that the library chooses from
-
 // What the scene and the options say; whatever moves is left to who moves it.
 SceneFacts sceneFacts(const Scene& scene, const LightOptions& options);
 

@@ -303,6 +303,7 @@ TEST_F(Plan, memoryStaysBelowWhatIsAnnounced) {
         EXPECT_LE(announced[0].at("bytes_if_no_wall_cuts_a_cell"), announced[0].at("bytes_at_most"));
     }
     EXPECT_EQ(plan("cornell").at("resolutions").size(), 4u);
+    EXPECT_EQ(plan("cornell", {"--rays", "4k"}).at("resolutions").size(), 5u) << "8^3 is tried too";
 }
 
 }  // namespace

@@ -29,6 +29,13 @@ HalfEstimates levelWith(float bias, float noiseOfHalf, uint seed, std::size_t re
     return level;
 }
 
+TEST(Resolution, theCoarsestIsTriedWithFewRaysAlone) {
+    EXPECT_EQ(resolutionsFor(65536.0).front(), 8);
+    EXPECT_EQ(resolutionsFor(4e6).front(), 16);
+    EXPECT_EQ(resolutionsFor(65536.0, kClvLookupTrilinear).front(), 16);
+    EXPECT_EQ(resolutionsFor(4e6).back(), resolutionsFor(1.0).back());
+}
+
 TEST(Resolution, halvesTellBiasFromNoise) {
     const std::vector<HalfEstimates> levels = {levelWith(0.3f, 0.1f, 10), levelWith(0.1f, 0.2f, 20), levelWith(0.0f, 0.4f, 30)};
     const LevelErrors errors = judgeLevels(levels);

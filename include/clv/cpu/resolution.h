@@ -20,11 +20,22 @@
 #include <span>
 #include <vector>
 
-#include "../lang.h"
+#include "../stages/evaluate.h"
 
 namespace clv {
 
 inline constexpr int kMostLevels = 6;
+
+// Resolutions to choose from, coarse to fine.
+inline constexpr int kResolutions[] = {8, 16, 32, 64, 128};
+
+// Those that are worth trying with so many rays. The coarsest errs least, or helps the next one in a mix, as long as noise hides what its
+// large cells blur; with more rays it would be filled for nothing.
+// lookup: kClvLookup...; a plain interpolation blurs as much in cells half as large, where there is less noise to hide it.
+inline std::span<const int> resolutionsFor(double rays, uint lookup = kClvLookupLinearFit) {
+    const double fewRays = lookup == kClvLookupLinearFit ? 256 << 10 : 8 << 10;
+    return std::span(kResolutions).subspan(rays < fewRays ? 0 : 1);
+}
 
 // What one level says at the receivers, W/m^2.
 struct HalfEstimates {
