@@ -19,7 +19,7 @@ const std::map<std::string, uint> kStorages = {
 
 void addLightOptions(CLI::App& command, LightOptions& options) {
     addBouncesOption(command, options.allBounces);
-    command.add_option("--resolution", options.resolution, "A volume of about N^3 cells; default: chosen by the library, which judges 16, 32, 64 and 128 by the rays, and 8 where there are fewer than 256k")
+    command.add_option("--resolution", options.resolution, "A volume of about N^3 cells; default: chosen by the library, which judges 16, 32, 64 and 128 by the rays, and 8 where there are fewer than 512k")
         ->check(CLI::Range(1, kMaxResolution));
     auto* rays = addCountOption(command, "--rays", options.rays, 
                                 fmt::format("Segments traced in all, pilots, frames and every bounce counted; default {}", options.rays));

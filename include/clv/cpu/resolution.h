@@ -33,7 +33,7 @@ inline constexpr int kResolutions[] = {8, 16, 32, 64, 128};
 // large cells blur; with more rays it would be filled for nothing.
 // lookup: kClvLookup...; a plain interpolation blurs as much in cells half as large, where there is less noise to hide it.
 inline std::span<const int> resolutionsFor(double rays, uint lookup = kClvLookupLinearFit) {
-    const double fewRays = lookup == kClvLookupLinearFit ? 256 << 10 : 8 << 10;
+    const double fewRays = lookup == kClvLookupLinearFit ? 512 << 10 : 8 << 10;
     return std::span(kResolutions).subspan(rays < fewRays ? 0 : 1);
 }
 
