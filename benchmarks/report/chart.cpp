@@ -83,7 +83,7 @@ void addSeries(vtkChartXY& chart, const ChartSeries& series) {
     // Filled ones: viewers disagree on how lines scale in the others.
     constexpr int kMarkers[] = {vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND};
     plot->SetMarkerStyle(series.markers ? kMarkers[series.marker % std::size(kMarkers)] : int(vtkPlotPoints::NONE));
-    plot->SetMarkerSize(8.0f);
+    plot->SetMarkerSize(series.markerSize);
 }
 
 // VTK writes clipping in pixels for groups that are drawn in units of their own, where it would cut everything off.

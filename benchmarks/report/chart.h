@@ -14,6 +14,7 @@ struct ChartSeries {
     bool line = true, markers = true;
     float width = 2.0f;                  // of the line, pixels
     std::size_t marker = 0;              // index of chartMarker
+    float markerSize = 8.0f;             // pixels
 };
 
 struct Chart {

@@ -17,6 +17,27 @@ double workOf(const Measurement& m) {
     return double(m.rays) * m.frames;
 }
 
+std::string kindName(const Measurement& m) {
+    std::string name = m.method;
+    if (settingOf(m, "readers") == "anywhere") name += ", light anywhere";
+    if (settingOf(m, "resolution") == "chosen") name += ", resolution chosen";
+    return name;
+}
+
+template <class NameOf>
+std::vector<Curve> groupedBy(std::span<const Measurement> all, const std::string& scene, NameOf&& nameOf) {
+    std::vector<Curve> curves;
+    for (const Measurement& m : all) {
+        if (m.scene != scene) continue;
+        const std::string name = nameOf(m);
+        auto found = std::ranges::find(curves, name, &Curve::name);
+        if (found == curves.end()) found = curves.insert(curves.end(), {name, m.method, {}});
+        found->points.push_back(&m);
+    }
+    for (Curve& curve : curves) std::ranges::stable_sort(curve.points, {}, [](const Measurement* m) { return workOf(*m); });
+    return curves;
+}
+
 }  // namespace
 
 std::vector<std::string> scenesOf(std::span<const Measurement> all) {
@@ -27,17 +48,9 @@ std::vector<std::string> scenesOf(std::span<const Measurement> all) {
     return names;
 }
 
-std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene) {
-    std::vector<Curve> curves;
-    for (const Measurement& m : all) {
-        if (m.scene != scene) continue;
-        auto found = std::ranges::find(curves, curveName(m), &Curve::name);
-        if (found == curves.end()) found = curves.insert(curves.end(), {curveName(m), m.method, {}});
-        found->points.push_back(&m);
-    }
-    for (Curve& curve : curves) std::ranges::stable_sort(curve.points, {}, [](const Measurement* m) { return workOf(*m); });
-    return curves;
-}
+std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene) { return groupedBy(all, scene, curveName); }
+
+std::vector<Curve> kindsOf(std::span<const Measurement> all, const std::string& scene) { return groupedBy(all, scene, kindName); }
 
 CurveLabels::CurveLabels(std::span<const Measurement> all) {
     std::map<std::string, std::size_t> rows;

@@ -14,7 +14,7 @@ namespace clv {
 // The method that is this library.
 inline constexpr const char* kLibraryName = "clv";
 
-// Measurements of one scene and one method with its settings, by rising work.
+// Measurements of one scene and one method, with its settings or of one kind, by rising work.
 struct Curve {
     std::string name;
     std::string method;
@@ -25,6 +25,10 @@ struct Curve {
 std::vector<std::string> scenesOf(std::span<const Measurement> all);
 // In the order of their first measurements. `all` must outlive them.
 std::vector<Curve> curvesOf(std::span<const Measurement> all, const std::string& scene);
+
+// One for each kind of method: what a reader chooses among before any setting. Their names say light for receivers anywhere apart from
+// that on surfaces, and the chosen resolution apart from fixed ones.
+std::vector<Curve> kindsOf(std::span<const Measurement> all, const std::string& scene);
 
 // Short names: of a method's settings those that tell its curves apart.
 class CurveLabels {

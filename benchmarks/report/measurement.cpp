@@ -1,5 +1,6 @@
 #include "benchmarks/report/measurement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,11 @@ double Measurement::seconds(double readers) const {
     if (wholePicture && readers < double(receivers)) return std::numeric_limits<double>::infinity();
     const double share = receivers > 0 ? readers / double(receivers) : 0.0;
     return (sharesRays ? 1.0 : share) * frameSeconds + share * lookupSeconds;
+}
+
+std::string settingOf(const Measurement& m, const std::string& name) {
+    const auto found = std::ranges::find(m.settings, name, &MethodSettings::value_type::first);
+    return found == m.settings.end() ? "" : found->second;
 }
 
 std::string settingsText(const MethodSettings& settings) {

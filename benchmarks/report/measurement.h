@@ -41,6 +41,8 @@ struct Measurement {
     double seconds(double readers) const;
 };
 
+// The value of a setting; empty where the method has none of that name.
+std::string settingOf(const Measurement& m, const std::string& name);
 // "resolution 32, storage cube9"; empty where a method has nothing to set.
 std::string settingsText(const MethodSettings& settings);
 // A method with its settings: what makes one curve.

@@ -76,21 +76,22 @@ double errorPercent(const Measurement& m) {
     return 100.0 * m.errors.relativeRmse;
 }
 
-std::string errorOverTime(const std::vector<Curve>& curves, double readers, const std::string& title) {
+// A curve a kind of method, through the best of its settings; the others are small and pale.
+std::string errorOverTime(const std::vector<Curve>& kinds, double readers, const std::string& title) {
     const auto milliseconds = [&](const Measurement& m) { return 1e3 * m.seconds(readers); };
-    Chart chart = curveChart(curves, milliseconds, errorPercent);
-    // Lines join the best of each curve, so that settings that are beaten by its others do not bend it back.
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-        chart.series[i].line = false;
-        ChartSeries best{.points = {}, .color = chartColor(i), .markers = false};
-        for (const Measurement* m : paretoFront(curves[i].points, readers)) best.points.emplace_back(milliseconds(*m), errorPercent(*m));
-        chart.series.push_back(best);
+    Chart chart = curveChart(kinds, milliseconds, errorPercent);
+    for (ChartSeries& settings : chart.series) {
+        settings.line = false, settings.markerSize = 4.0f;
+        settings.color = glm::u8vec3((glm::vec3(settings.color) + 2.0f * 255.0f) / 3.0f);
     }
-    ChartSeries front{.points = {}, .color = glm::u8vec3(190), .markers = false, .width = 9.0f};
-    for (const Measurement* m : paretoFront(pointsOf(curves), readers)) front.points.emplace_back(milliseconds(*m), errorPercent(*m));
-    chart.series.insert(chart.series.begin(), front);
+    const auto addFront = [&](const Points& points, ChartSeries line) {
+        for (const Measurement* m : paretoFront(points, readers)) line.points.emplace_back(milliseconds(*m), errorPercent(*m));
+        chart.series.push_back(line);
+    };
+    addFront(pointsOf(kinds), {.points = {}, .color = glm::u8vec3(190), .markers = false, .width = 9.0f});
+    for (std::size_t i = 0; i < kinds.size(); ++i) addFront(kinds[i].points, {.points = {}, .color = chartColor(i), .marker = i});
     chart.title = title, chart.xTitle = "run time, ms", chart.yTitle = "relative RMSE, %";
-    return figure(chart, "Lower and further left is better. Grey: the Pareto front, which nothing beats in both.");
+    return figure(chart, "Lower and further left is better. A curve is a method at the best of its settings; small and pale: the others. Grey: the Pareto front, which nothing beats in both.");
 }
 
 std::string errorOverRays(const std::vector<Curve>& curves, const CurveLabels& labels) {
@@ -123,11 +124,12 @@ std::string bytesOverError(const std::vector<Curve>& curves) {
     return figure(chart, "For the light and for finding it, without the scene.", kNarrowPlotWidth);
 }
 
-std::string keyOf(const std::vector<Curve>& curves, const CurveLabels& labels) {
+template <class NameOf>
+std::string keyOf(const std::vector<Curve>& curves, NameOf&& nameOf) {
     std::string text = "<p class=\"key\">";
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const glm::u8vec3 c = chartColor(i);
-        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">{}</b> {}</span> ", c.r, c.g, c.b, chartMarker(i), escaped(labels.curve(*curves[i].points.front())));
+        text += fmt::format("<span><b style=\"color:#{:02x}{:02x}{:02x}\">{}</b> {}</span> ", c.r, c.g, c.b, chartMarker(i), escaped(nameOf(curves[i])));
     }
     return text + "</p>\n";
 }
@@ -215,9 +217,11 @@ std::string htmlOf(const std::vector<Measurement>& all, const nlohmann::ordered_
     page += "<h2>Goals</h2>\n" + goalTable(all) + "<h2>Where this comes from</h2>\n" + aboutTable(about);
     for (const std::string& scene : scenesOf(all)) {
         const std::vector<Curve> curves = curvesOf(all, scene);
-        page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(curves, labels));
-        page += errorOverTime(curves, kPointReaders, fmt::format("{}, {} points", scene, groupedText(kPointReaders)));
-        page += errorOverTime(curves, kPictureReaders, fmt::format("{}, {} x {} pixels", scene, kPictureWidth, kPictureHeight));
+        const std::vector<Curve> kinds = kindsOf(all, scene);
+        page += fmt::format("<h2>{}</h2>\n{}<div class=\"plots\">\n", escaped(scene), keyOf(kinds, [](const Curve& kind) { return kind.name; }));
+        page += errorOverTime(kinds, kPointReaders, fmt::format("{}, {} points", scene, groupedText(kPointReaders)));
+        page += errorOverTime(kinds, kPictureReaders, fmt::format("{}, {} x {} pixels", scene, kPictureWidth, kPictureHeight));
+        page += fmt::format("</div>\n<p>A curve a setting:</p>\n{}<div class=\"plots\">\n", keyOf(curves, [&](const Curve& curve) { return labels.curve(*curve.points.front()); }));
         page += errorOverRays(curves, labels) + bytesOverError(curves) + "</div>\n";
         page += fmt::format("<p class=\"note\">The truth's own standard error, {}, is in these errors.</p>\n", percentText(curves.front().points.front()->truthError));
         const auto maps = heatMaps.find(scene);

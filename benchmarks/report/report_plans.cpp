@@ -111,6 +111,7 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
         plan.cases.push_back(lightVolume(everywhere, {2 * kThousand, 8 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}));
     }
     plan.cases.push_back(lightVolume({.resolution = 16, .readers = Readers::anywhere, .guided = false}, {16 * kThousand, 64 * kThousand}, frames));
+    for (const int planned : {16, 64}) plan.cases.push_back(lightVolume({.plannedRays = planned * 64 * kThousand}, {64 * kThousand}, {planned}));
     for (const int resolution : kResolutions) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
     plan.cases.push_back(lightVolume({.resolution = 8, .guided = false}, {kThousand, 2 * kThousand, 4 * kThousand, 16 * kThousand, 64 * kThousand}, fewFrames));
     plan.cases.push_back(lightVolume({.resolution = 8, .readers = Readers::anywhere, .guided = false}, {2 * kThousand, 4 * kThousand, 16 * kThousand, 64 * kThousand}, fewFrames));

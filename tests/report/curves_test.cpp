@@ -80,6 +80,21 @@ TEST(Curves, whatReadsWholePicturesServesNoFewPoints) {
     EXPECT_TRUE(measurementFrom(toJson(all[1])).wholePicture);
 }
 
+TEST(Curves, aKindHoldsAllSettingsButTellsTheChosenResolutionAndLightAnywhere) {
+    std::vector<Measurement> all = {made("a", 1, 1), made("a", 1, 1), made("a", 1, 1), made("a", 1, 1), made("b", 1, 1)};
+    all[0].settings = {{"resolution", "16"}, {"readers", "surfaces"}};
+    all[1].settings = {{"resolution", "32"}, {"readers", "surfaces"}};
+    all[2].settings = {{"resolution", "chosen"}, {"readers", "surfaces"}};
+    all[3].settings = {{"resolution", "16"}, {"readers", "anywhere"}};
+    const auto kinds = kindsOf(all, "s");
+    ASSERT_EQ(kinds.size(), 4u);
+    EXPECT_EQ(kinds[0].name, "a");
+    EXPECT_EQ(kinds[0].points, (Points{&all[0], &all[1]}));
+    EXPECT_EQ(kinds[1].name, "a, resolution chosen");
+    EXPECT_EQ(kinds[2].name, "a, light anywhere");
+    EXPECT_EQ(kinds[3].name, "b");
+}
+
 TEST(Curves, aFallWithAFloorIsFound) {
     std::vector<double> work, errors;
     for (double n = 1e3; n < 1e7; n *= 4.0) work.push_back(n), errors.push_back(std::hypot(0.03, 20.0 * std::pow(n, -0.55)));

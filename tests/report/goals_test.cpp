@@ -92,14 +92,17 @@ TEST(Goals, aFloorThatNoiseHidesIsNotJudged) {
     EXPECT_EQ(find(results, "slope")->verdict, Verdict::reached);
 }
 
-TEST(Goals, theChosenResolutionIsHeldAgainstFixedOnesWithTheSameRaysAndTheSameRest) {
-    const auto fixed = [](const std::string& resolution, const std::string& lookup) {
-        MethodSettings settings = kChosen;
+TEST(Goals, theChosenResolutionIsHeldAgainstFixedOnesWithTheSameRaysFramesAndTheSameRest) {
+    MethodSettings chosen = kChosen;
+    chosen.emplace_back("planned_rays", "65536");
+    const auto fixed = [&](const std::string& resolution, const std::string& lookup) {
+        MethodSettings settings = chosen;
+        settings[3].second = "0";
         settings[0].second = resolution, settings[2].second = lookup;
         return settings;
     };
-    const std::vector<Measurement> all = {made("clv", kChosen, 1, 0.12), made("clv", fixed("32", "linear fit"), 1, 0.1), made("clv", fixed("32", "nearest"), 1, 0.01),
-                                          made("clv", fixed("64", "linear fit"), 1, 0.05, 4 << 20)};
+    const std::vector<Measurement> all = {made("clv", chosen, 1, 0.12), made("clv", fixed("32", "linear fit"), 1, 0.1), made("clv", fixed("32", "nearest"), 1, 0.01),
+                                          made("clv", fixed("64", "linear fit"), 1, 0.05, 4 << 20), made("clv", fixed("64", "linear fit"), 1, 0.05, 4 << 10, 16)};
     const auto results = judgeGoals(all, 1000, 10000);
     ASSERT_TRUE(find(results, "1.03"));
     EXPECT_EQ(find(results, "1.03")->measured, "1.200 at worst");
