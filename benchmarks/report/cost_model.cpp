@@ -24,9 +24,15 @@ double seconds(const Trial& trial, double rays, double growth) {
     return lineSeconds(trial, rays) * std::pow(std::max(1.0, rays / trial.rays), growth);
 }
 
-double error(const Trial& trial, double rays, double fall) {
-    return std::hypot(trial.floor, trial.noise * std::pow(rays / trial.rays, fall));
+double noise(const Trial& trial, double rays, double fall) {
+    const auto between = [&](double lo, double loNoise, double hi, double hiNoise) { return loNoise * std::pow(hiNoise / loNoise, std::log(rays / lo) / std::log(hi / lo)); };
+    if (rays >= trial.rays) return trial.noise * std::pow(rays / trial.rays, fall);
+    if (rays <= trial.leastRays) return trial.leastNoise * std::pow(rays / trial.leastRays, fall);
+    if (rays <= trial.fewRays) return between(trial.leastRays, trial.leastNoise, trial.fewRays, trial.fewNoise);
+    return between(trial.fewRays, trial.fewNoise, trial.rays, trial.noise);
 }
+
+double error(const Trial& trial, double rays, double fall) { return std::hypot(trial.floor, noise(trial, rays, fall)); }
 
 // Sum over all outcomes of the squared logarithm of true value over forecast.
 template <class Misfit>

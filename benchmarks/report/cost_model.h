@@ -14,7 +14,7 @@ struct Trial {
     int resolution = 32;               // about resolution^3 cells
     double leastRays = 0, fewRays = 0, rays = 0;  // of a frame; from fewRays on some of them are pilots
     double leastSeconds = 0, fewSeconds = 0, seconds = 0;  // of those frames, lookups among them
-    double noise = 0;                  // relative standard deviation between frames of `rays`
+    double leastNoise = 0, fewNoise = 0, noise = 0;  // relative standard deviation between them
     double floor = 0;                  // relative RMSE that remains without the noise
 };
 
@@ -36,7 +36,8 @@ struct Forecast {
 };
 
 // Seconds grow along the line through the trial's two larger frames, before them along its parallel through the least one, and beyond
-// them by (rays / trial's rays)^timeGrowth; noise falls by (rays / trial's rays)^noiseFall on top of the floor.
+// them by (rays / trial's rays)^timeGrowth. Noise, on top of the floor, lies on straight lines in logarithms between the trial's frames, and
+// before and beyond them falls as rays^noiseFall.
 class CostModel {
 public:
     // Needs at least three outcomes with more rays than their trials.

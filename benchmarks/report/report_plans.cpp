@@ -71,7 +71,7 @@ ReportPlan quickPlan(const std::string& vulkanDevice) {
         lightVolume(quickToRead(8), {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 16 * kThousand}),
         lightVolume(quickToRead(16), {4 * kThousand, 8 * kThousand, 10 * kThousand, 12 * kThousand, 16 * kThousand, 32 * kThousand}, {1, 4}),
         lightVolume(quickToFill(16), {8 * kThousand, 10 * kThousand, 12 * kThousand, 16 * kThousand, 24 * kThousand, 40 * kThousand}),
-        lightVolume({.resolution = 8, .guided = false}, {2 * kThousand, 4 * kThousand, 16 * kThousand}, {1, 4}),
+        lightVolume({.resolution = 8, .guided = false}, {2 * kThousand, 4 * kThousand, 8 * kThousand, 16 * kThousand}, {1, 4}),
         lightVolume({.resolution = 16, .guided = false}, {4 * kThousand, 16 * kThousand, 24 * kThousand, 32 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 32}, {16 * kThousand, 64 * kThousand}, {1, 4, 16}),
         lightVolume({.resolution = 64}, {64 * kThousand}, {1, 4, 16}),
@@ -113,7 +113,7 @@ ReportPlan fullPlan(const std::string& vulkanDevice) {
     plan.cases.push_back(lightVolume({.resolution = 16, .readers = Readers::anywhere, .guided = false}, {16 * kThousand, 64 * kThousand}, frames));
     for (const int planned : {16, 64}) plan.cases.push_back(lightVolume({.plannedRays = planned * 64 * kThousand}, {64 * kThousand}, {planned}));
     for (const int resolution : kResolutions) plan.cases.push_back(lightVolume({.resolution = resolution}, rays));
-    plan.cases.push_back(lightVolume({.resolution = 8, .guided = false}, {kThousand, 2 * kThousand, 4 * kThousand, 16 * kThousand, 64 * kThousand}, fewFrames));
+    plan.cases.push_back(lightVolume({.resolution = 8, .guided = false}, {kThousand, 2 * kThousand, 4 * kThousand, 8 * kThousand, 16 * kThousand, 64 * kThousand}, fewFrames));
     plan.cases.push_back(lightVolume({.resolution = 8, .readers = Readers::anywhere, .guided = false}, {2 * kThousand, 4 * kThousand, 16 * kThousand, 64 * kThousand}, fewFrames));
     for (const int resolution : {16, 32, 64}) {
         plan.cases.push_back(lightVolume({.resolution = resolution}, {64 * kThousand}, merged));

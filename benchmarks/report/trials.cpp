@@ -76,7 +76,7 @@ TrialRun::Frames TrialRun::run(double rays, int repeats) {
 
 Trial TrialRun::trial() {
     const Frames least = run(kLeastRays, kTrialRepeats), few = run(kFewRays, kTrialRepeats), many = run(kTrialRays, kTrialRepeats);
-    return {resolution_, kLeastRays, kFewRays, kTrialRays, least.seconds, few.seconds, many.seconds, many.noise, std::sqrt(std::max(0.0, many.error * many.error - many.noise * many.noise))};
+    return {resolution_, kLeastRays, kFewRays, kTrialRays, least.seconds, few.seconds, many.seconds, least.noise, few.noise, many.noise, std::sqrt(std::max(0.0, many.error * many.error - many.noise * many.noise))};
 }
 
 Outcome TrialRun::measure(double rays, int repeats) {

@@ -24,7 +24,8 @@ struct World {
 };
 
 Trial trialIn(const Machine& machine, const World& world, int resolution = 32) {
-    return {resolution, kLeast, kFew, kRays, machine.seconds(kLeast), machine.seconds(kFew), machine.seconds(kRays), world.noise, world.floor};
+    return {resolution, kLeast, kFew, kRays, machine.seconds(kLeast), machine.seconds(kFew), machine.seconds(kRays),
+            world.noise * std::pow(kLeast / kRays, machine.fall), world.noise * std::pow(kFew / kRays, machine.fall), world.noise, world.floor};
 }
 double errorIn(const Machine& machine, const World& world, double rays) {
     return std::hypot(world.floor, world.noise * std::pow(rays / kRays, machine.fall));
@@ -56,6 +57,16 @@ TEST(CostModel, findsTheLawOfTheMachineAndForetellsAnotherScene) {
         EXPECT_LT(forecast.secondsFactor, 1.05);
         EXPECT_LT(forecast.errorFactor, 1.05);
     }
+}
+
+TEST(CostModel, noiseIsWhatTheTrialsFramesShowed) {
+    Trial trial = trialIn(Machine(), {0.0, 0.1});
+    trial.leastNoise = 0.9, trial.fewNoise = 0.4;
+    const CostModel model = fitted(Machine());
+    EXPECT_NEAR(model.forecast(trial, kLeast).error, 0.9, 1e-6);
+    EXPECT_NEAR(model.forecast(trial, kFew).error, 0.4, 1e-6);
+    EXPECT_NEAR(model.forecast(trial, std::sqrt(kFew * kRays)).error, 0.2, 1e-6) << "half-way in logarithms";
+    EXPECT_NEAR(model.forecast(trial, kLeast / 4.0).error / 0.9, std::pow(4.0, 0.55), 0.02);
 }
 
 TEST(CostModel, isLessSureWhereOutcomesScatter) {
