@@ -31,7 +31,7 @@ inline constexpr int kResolutions[] = {8, 16, 32, 64, 128};
 
 // Those that are worth trying with so many rays. The coarsest errs least, or helps the next one in a mix, as long as noise hides what its
 // large cells blur; with more rays it would be filled for nothing.
-// lookup: kClvLookup...; a plain interpolation blurs as much in cells half as large, where there is less noise to hide it.
+// lookup: kClvLookup...; without the linear fit large cells blur more, and only with far fewer rays does noise hide it.
 inline std::span<const int> resolutionsFor(double rays, uint lookup = kClvLookupLinearFit) {
     const double fewRays = lookup == kClvLookupLinearFit ? 512 << 10 : 8 << 10;
     return std::span(kResolutions).subspan(rays < fewRays ? 0 : 1);
