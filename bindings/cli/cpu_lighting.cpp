@@ -38,12 +38,13 @@ public:
         clock_.time("rsm", [&] { sampler_.build(emitters, kEmitterWidth, parallelFor_); });
     }
 
-    void pilots(std::uint32_t seed, std::span<ClvRay> rays) override {
+    void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
         constexpr std::size_t kPiece = 2048;
         parallelFor_((rays.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
-            const auto part = rays.subspan(piece * kPiece, std::min(kPiece, rays.size() - piece * kPiece));
-            makeRays(sampler_, uint(piece * kPiece), seed, scene_.surfaceOffset(), part);
-            target_.trace(part);
+            const std::size_t first = piece * kPiece, count = std::min(kPiece, rays.size() - first);
+            const auto part = rays.subspan(first, count);
+            makeRays(sampler_, uint(first), seed, scene_.surfaceOffset(), part);
+            hits.empty() ? target_.trace(part) : target_.trace(part, hits.subspan(first, count));
         });
     }
     void guideBy(const RayGuide& guide) override { guide_ = &guide; }

@@ -5,61 +5,74 @@
 
 #include <fmt/format.h>
 
+#include "bindings/cli/light_walk.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/scene_facts.h"
 
 namespace clv {
 namespace {
 
-constexpr int kMostSweeps = 24;                    // bounces
-constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left to the extrapolation
+constexpr int kLastFed = 8;                        // the last bounce that is read from the volume of the one before
+constexpr int kLastWithoutLimit = 24;              // the same where there is no end to the light
+constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left out
+constexpr double kWalked = 0.25;                   // of the rays that are left to later bounces, at most so many find where their light is
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
-// Above this ratio from bounce to bounce the sum has no stable limit.
-constexpr double kLargestRatio = 0.9995;
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
 class FurtherBounces {
 public:
     FurtherBounces(LightJob& job, const SentPower& sent)
-        : job_(job), power_(sent.on), first_(total(sent.on)), ratio_(total(sent.flux) > 0.0 ? first_ / total(sent.flux) : 0.0),
+        : job_(job), power_(sent.on), first_(sent.on), ratio_(ratioOf(sent.on, sent.flux)),
           budget_(job.options.seconds > 0.0 ? double(job.report.rays) : double(job.options.rays - std::min(job.options.rays, job.report.rays))) {}
 
     void add(std::span<const LitLevel> source, const TakeLight& take) {
         Progress progress("bounces");
-        const double expected = std::clamp(ratio_, 0.02, 0.98);
-        const double spread = (1.0 - std::pow(expected, kMostSweeps - 1)) / (1.0 - expected);
+        // Rays go to bounces in proportion to their light.
+        const double expected = std::clamp(total(power_) > 0.0 ? total(power_ * ratio_) / total(power_) : 0.0, 0.02, 0.98);
         const auto [resolution, level] = chooseLevel(source);
         const auto lookups = job_.makeLookups(level);
+        const auto fill = [&](Pair& pair, std::span<const ClvRsmTexel> emitters, std::size_t count, std::uint32_t stream) {
+            if (!pair.lighting) {
+                LightingSettings settings = job_.lightingSettings(1, count, stream);
+                settings.emitters = emitters.size();
+                pair.lighting = job_.makeLighting(settings);
+                pair.level.push_back(job_.makeLit(*pair.lighting, resolution, level, lookups));
+                job_.report.bytes += pair.level[0].light->bytes();
+            }
+            ++job_.report.sweeps;
+            return shoot(pair, emitters, count);
+        };
         // Two volumes in turn: one is read while the other is filled.
         Pair pair[2];
-        for (int sweep = 2; sweep <= kMostSweeps; ++sweep) {
-            const double left = ratio_ < 1.0 ? total(power_) / (1.0 - ratio_) : total(power_);
-            if (!(total(power_) > 0.0) || left < kNegligible * first_) return;
-            if (!emitFrom(source)) return;
-            const std::size_t count = std::max<std::size_t>(1, std::size_t(budget_ * std::pow(expected, sweep - 2) / spread));
-            Pair& target = pair[sweep % 2];
-            if (!target.lighting) {
-                LightingSettings settings = job_.lightingSettings(1, count, 0x100u + std::uint32_t(sweep % 2));
-                settings.emitters = emitters_.size();
-                target.lighting = job_.makeLighting(settings);
-                target.level.push_back(job_.makeLit(*target.lighting, resolution, level, lookups));
-                job_.report.bytes += target.level[0].light->bytes();
-            }
-            const glm::dvec3 next = shoot(target, count);
-            job_.report.sweeps = std::uint32_t(sweep);
-            job_.report.contraction = ratio_ = total(next) / total(power_);
-            // Behind the last sweep every further one has about the same shape, fainter by the ratio: a geometric series.
-            const bool last = sweep == kMostSweeps || total(next) < kNegligible * (1.0 - std::min(ratio_, 0.999)) * first_;
-            if (last && ratio_ >= kLargestRatio) warnOfNoLimit(sweep);
-            source = target.level;
-            take(source, last && ratio_ < kLargestRatio ? float(1.0 / (1.0 - ratio_)) : 1.0f);
-            if (last) return;
+        int bounce = 2;
+        for (; bounce <= (limitless() ? kLastWithoutLimit : kLastFed); ++bounce) {
+            if (negligible() || !emitFrom(source)) return;
+            const auto count = std::max<std::size_t>(1, std::size_t(budget_ * (1.0 - expected) * std::pow(expected, bounce - 2)));
+            const glm::dvec3 next = fill(pair[bounce % 2], emitters_, count, 0x100u + std::uint32_t(bounce % 2));
+            ratio_ = ratioOf(next, power_);
+            job_.report.contraction = std::max({ratio_.x, ratio_.y, ratio_.z});
+            source = pair[bounce % 2].level;
+            take(source, 1.0f);
             power_ = next;
-            progress.update(1.0 - total(power_) / first_);
+            progress.update(1.0 - total(power_) / total(first_));
         }
+        if (limitless()) warnOfNoLimit(bounce - 1);
+        for (int c = 0; c < 3; ++c) power_[c] = ratio_[c] < kLargestRatio ? power_[c] : 0.0;
+        if (negligible() || !emitFrom(source)) return;
+        // What is left: all later bounces at once.
+        const double rays = budget_ * std::pow(expected, bounce - 2);
+        LightingSettings settings = job_.lightingSettings(1, std::uint64_t(kWalked * rays), 0x102u);
+        settings.emitters = emitters_.size();
+        const auto lighting = job_.makeLighting(settings);
+        WalkedLight walked;
+        job_.clock.time("walk", [&] { walked = walkOn(*lighting, emitters_, std::uint64_t(kWalked * rays), clvHashCombine(job_.seed, 0x103u), job_.scene.bounds); });
+        job_.report.rays += walked.rays, job_.report.walked = walked.bounces;
+        Pair rest;
+        fill(rest, walked.emitters, std::max<std::size_t>(1, std::size_t(std::max(rays - double(walked.rays), 0.0))), 0x104u);
+        take(rest.level, 1.0f);
     }
 
 private:
@@ -67,6 +80,20 @@ private:
         std::unique_ptr<Lighting> lighting;
         std::vector<LitLevel> level;  // none or one
     };
+
+    static glm::dvec3 ratioOf(const glm::dvec3& next, const glm::dvec3& power) {
+        glm::dvec3 ratio(0.0);
+        for (int c = 0; c < 3; ++c) ratio[c] = power[c] > 0.0 ? next[c] / power[c] : 0.0;
+        return ratio;
+    }
+    bool limitless() const { return std::max({ratio_.x, ratio_.y, ratio_.z}) >= kLargestRatio; }
+    // Whether what is left of each channel's light is little of it.
+    bool negligible() const {
+        for (int c = 0; c < 3; ++c) {
+            if (power_[c] / (1.0 - std::min(ratio_[c], kLargestRatio)) > kNegligible * first_[c]) return false;
+        }
+        return true;
+    }
 
     // Further bounces have fewer rays and smoother light than the first: where the resolution is not given, they get a coarser level
     // that keeps its noise as low.
@@ -99,8 +126,8 @@ private:
     }
 
     // Fills the target with the light of `count` rays. Returns what the surfaces that they hit send on, W a channel.
-    glm::dvec3 shoot(Pair& target, std::size_t count) {
-        target.lighting->emit(emitters_);
+    glm::dvec3 shoot(Pair& target, std::span<const ClvRsmTexel> emitters, std::size_t count) {
+        target.lighting->emit(emitters);
         LightLevel* const level = target.level[0].light.get();
         level->reset();
         glm::dvec3 on(0.0);
@@ -113,17 +140,17 @@ private:
         return on;
     }
 
-    void warnOfNoLimit(int sweep) {
+    void warnOfNoLimit(int bounce) {
         job_.report.warnings.push_back(fmt::format(
             "bounce {} still carries {:.4f} of the power of the one before: surfaces reflect all light and nothing absorbs it, so "
             "there is no finite answer; what is given is the light of the first {} bounces",
-            sweep, ratio_, sweep));
+            bounce, job_.report.contraction, bounce));
     }
 
     LightJob& job_;
     glm::dvec3 power_;  // W a channel, that surfaces send on after the last bounce
-    const double first_;
-    double ratio_;      // by which the power falls from bounce to bounce, about
+    const glm::dvec3 first_;
+    glm::dvec3 ratio_;   // by which the power falls from bounce to bounce, about
     const double budget_;  // rays
     std::vector<ClvRsmTexel> emitters_;
 };

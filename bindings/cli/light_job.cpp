@@ -135,7 +135,7 @@ void LightJob::evaluate(std::span<const LitLevel> levels, float scale, std::span
 
 PipelineReport LightJob::takeReport() {
     report.stages = clock.stages();
-    report.frameSeconds = clock.of({"guide", "rays", "trace", "inject", "merge", "choose", "evaluate"});
+    report.frameSeconds = clock.of({"guide", "rays", "trace", "inject", "merge", "walk", "choose", "evaluate"});
     return std::move(report);
 }
 

@@ -8,6 +8,7 @@
 
 #include "clv/cpu/level.h"
 #include "clv/cpu/ray_guide.h"
+#include "clv/data/hit.h"
 #include "clv/data/rsm_texel.h"
 
 namespace clv {
@@ -41,11 +42,12 @@ public:
 
     // The maps of the scene's lights, at one of their well-spread samples: where the rays of the next shots come from.
     virtual void renderMaps(std::uint32_t pass) = 0;
-    // Surfaces that send light, in place of maps; as many as the settings say.
+    // Surfaces that send light, in place of maps; as many as the settings say at most.
     virtual void emit(std::span<const ClvRsmTexel> emitters) = 0;
 
-    // Fills `rays` with the first ones of a sequence of their own, cut where they hit.
-    virtual void pilots(std::uint32_t seed, std::span<ClvRay> rays) = 0;
+    // Fills `rays` with the first ones of a sequence of their own, cut where they hit; and `hits`, as many or none, for settings that
+    // keep hits.
+    virtual void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits = {}) = 0;
     // Later rays go where this guide sends them, once maps are rendered. Call it before any level is made.
     virtual void guideBy(const RayGuide& guide) = 0;
 
@@ -66,7 +68,7 @@ struct LightingSettings {
     std::uint64_t rays = 0;       // that are to come, about: volumes are cut into parts accordingly
     std::size_t firstShot = 0;    // rays; their memory is taken ahead
     std::uint32_t seed = 1;
-    std::size_t emitters = 0;     // surfaces that send light, rows of kEmitterWidth; 0: the scene's lights do
+    std::size_t emitters = 0;     // surfaces that may send light, rows of kEmitterWidth; 0: the scene's lights do
     bool keepHits = false;        // so that sent() knows what the rays met
     ClvVolume finest{};           // of the levels that may be made
 };

@@ -75,6 +75,7 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["levels"] = levels;
     report["rays"] = run.rays;
     report["sweeps"] = run.sweeps;
+    report["walked_bounces"] = run.walked;
     report["channels"] = run.channels;
     report["share_of_rays_that_meet"] = run.shareThatMeets;
     report["guided"] = run.guided;

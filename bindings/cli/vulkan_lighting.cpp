@@ -133,15 +133,17 @@ public:
         });
     }
     void emit(std::span<const ClvRsmTexel> emitters) override {
+        emitters_.assign(emitters.begin(), emitters.end());
+        emitters_.resize(frame_.emitters, ClvRsmTexel{});
         parts_.clock.time("rsm", [&] {
             run_->upload("frame", constants_);
-            run_->upload("texels", emitters);
+            run_->upload("texels", std::span<const ClvRsmTexel>(emitters_));
             run_->run("rsm");
         });
         if (settings_.emitters > 0) largestFlux_ = largestRayFlux(emitters);
     }
 
-    void pilots(std::uint32_t seed, std::span<ClvRay> rays) override {
+    void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
         ClvFrame constants = constants_;
         constants.halves = 1, constants.seed = seed;
         for (std::size_t done = 0; done < rays.size(); done += frame_.rays) {
@@ -150,6 +152,7 @@ public:
             run_->upload("frame", constants);
             run_->run("light");
             run_->download("rays", piece);
+            if (!hits.empty()) run_->download("hits", hits.subspan(done, piece.size()));
         }
     }
     void guideBy(const RayGuide& guide) override {
@@ -253,6 +256,7 @@ private:
     uint nextIndex_ = 0;
     Shot shot_;
     SentPower sent_;
+    std::vector<ClvRsmTexel> emitters_;
     std::vector<ClvRay> rays_;
     std::vector<ClvHit> hits_;
 };

@@ -5,6 +5,7 @@
 
 #include "bindings/embree/embree_scene.h"
 #include "clv/cpu/parallel.h"
+#include "clv/data/rsm_texel.h"
 #include "clv/stages/evaluate.h"
 
 namespace clv {
@@ -19,5 +20,8 @@ struct SurfaceSamples {
 // is left out when nothing that it sees is a front: the inside of a solid, the outside of a closed room. Neighbours among the receivers
 // face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
 SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor);
+
+// In the order of those receivers: by which way they face, then by place.
+void sortAlongSurfaces(std::vector<ClvRsmTexel>& texels, const Bounds& bounds);
 
 }  // namespace clv
