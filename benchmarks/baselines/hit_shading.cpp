@@ -25,8 +25,8 @@ std::size_t traceAndShade(const EmbreeScene& scene, std::span<ClvRay> rays, std:
             const glm::vec3 reflected = hits[i].albedo * arriving.irradiance * (cosine * kClvInvPi);
             if (!(cosine > 0.0f) || reflected == glm::vec3(0.0f)) continue;
             owner[asked] = i;
-            shadows[asked++] = {.origin = position + hits[i].normal * scene.surfaceOffset(), .maxDistance = arriving.distance,
-                                .direction = arriving.towardsLight, .dynamicity = 0.0f, .flux = reflected, .pad0 = 0.0f};
+            shadows[asked] = shadowRay(light.light, position + hits[i].normal * scene.surfaceOffset(), scene.surfaceOffset());
+            shadows[asked++].flux = reflected;
         }
         scene.killOccludedFast(std::span(shadows).first(asked));
         for (std::size_t k = 0; k < asked; ++k) {

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "clv/data/light.h"
+#include "clv/data/ray.h"
 
 namespace clv {
 
@@ -14,5 +15,9 @@ struct DirectLight {
 };
 
 DirectLight directLightAt(const ClvLight& light, const glm::vec3& position);
+
+// What must be free for the light to arrive: from `origin`, a surface's point moved off it by `offset` (m), to as far before the light, since a
+// lamp may lie on a surface. It carries no flux.
+ClvRay shadowRay(const ClvLight& light, const glm::vec3& origin, float offset);
 
 }  // namespace clv

@@ -84,8 +84,9 @@ private:
             const float cosine = glm::dot(arriving.towardsLight, vertex.normal);
             const glm::vec3 share = vertex.weight * arriving.irradiance * cosine;
             if (!(cosine > 0.0f) || share == glm::vec3(0.0f)) continue;
-            rays_[asked++] = {.origin = vertex.position + vertex.normal * scene_.surfaceOffset(), .maxDistance = arriving.distance,
-                              .direction = arriving.towardsLight, .dynamicity = 0.0f, .flux = share, .pad0 = 0.0f};
+            const float offset = scene_.surfaceOffset();
+            rays_[asked] = shadowRay(light, vertex.position + vertex.normal * offset, offset);
+            rays_[asked++].flux = share;
         }
         scene_.killOccluded(std::span(rays_).first(asked));
         glm::dvec3 sum(0.0);
@@ -157,9 +158,8 @@ glm::vec3 directIrradiance(const EmbreeScene& scene, const glm::vec3& position, 
     for (const NamedLight& light : scene.scene().lights) {
         const DirectLight arriving = directLightAt(light.light, position);
         const float cosine = glm::dot(arriving.towardsLight, normal);
-        if (cosine > 0.0f && !scene.occluded(position + normal * scene.surfaceOffset(), arriving.towardsLight, arriving.distance)) {
-            sum += arriving.irradiance * cosine;
-        }
+        const ClvRay ray = shadowRay(light.light, position + normal * scene.surfaceOffset(), scene.surfaceOffset());
+        if (cosine > 0.0f && !scene.occluded(ray.origin, ray.direction, ray.maxDistance)) sum += arriving.irradiance * cosine;
     }
     return sum;
 }

@@ -81,6 +81,18 @@ TEST(DirectIrradiance, pointInTheLampItselfIsFinite) {
     EXPECT_TRUE(std::isfinite(directIrradiance(EmbreeScene(scene), scene.lights[0].light.position, kUp).x));
 }
 
+TEST(DirectIrradiance, surfaceThatALampLiesOnDoesNotShadowIt) {
+    SmallScene small = floorAndRoof();
+    small.light(makePointLight(glm::vec3(1.0f)), {1.25, 3, 0.5});
+    const Scene scene = small.finish();
+    const EmbreeScene embree(scene);
+    for (int k = 0; k < 100; ++k) {
+        const glm::vec3 at(0.09f * float(k) - 4.0f, 0.0f, 0.04f * float(k) - 2.0f);
+        const double height = 3.0, square = height * height + std::pow(at.x - 1.25, 2) + std::pow(at.z - 0.5, 2);
+        EXPECT_NEAR(directIrradiance(embree, at, kUp).x, height / std::pow(square, 1.5), 1e-6) << k;
+    }
+}
+
 std::vector<ReferencePoint> pointsInBox(int count) {
     std::vector<ReferencePoint> points;
     for (uint i = 0; i < uint(count); ++i) points.push_back({0.2f * randomDirection(61, i), randomDirection(62, i)});
