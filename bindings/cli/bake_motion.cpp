@@ -60,7 +60,7 @@ PipelineReport bakeMotion(const Scene& scene, const Motion& motion, const LightO
 
     const CascadeDesc desc = follows ? cascadesAround(scene, cameraOf(0), cascades.count, options.resolution, cascades.cellSize) : gridOver(scene, options.resolution);
     moving.lights = lightsAt(motion, scene, 0);
-    LightHeed heed = heedLights(*embree, float(desc.finestCellSize), parallelFor);
+    LightHeed heed = heedLights(*embree, float(desc.finestCellSize), double(options.rays) * options.frames, parallelFor);
     if (heed.insideOut) {
         turnFaces(moving);
         embree.emplace(moving);

@@ -9,13 +9,31 @@
 
 namespace clv {
 
-LightHeed heedLights(const EmbreeScene& scene, float cellSize, const ParallelFor& parallelFor) {
+namespace {
+
+constexpr double kDim = 1e-3;       // share of all light below which a light counts as dim,
+constexpr double kFewRays = 100.0;  // and rays, with which it is noise where it alone shines
+
+void heedDimLights(const LightCheck& check, const std::vector<NamedLight>& lights, double rays, std::vector<std::string>& warnings) {
+    std::size_t dim = 0, first = 0;
+    for (std::size_t k = check.shares.size(); k-- > 0;) {
+        if (check.shares[k] > 0.0 && check.shares[k] < kDim && check.shares[k] * rays < kFewRays) ++dim, first = k;
+    }
+    if (dim == 0) return;
+    warnings.push_back(fmt::format("light \"{}\"{} so little of all light that about {:.2g} of the rays carry its: where nothing else shines there is noise, or nothing",
+                                   lights[first].name, dim > 1 ? fmt::format(" and {} more send", dim - 1) : " sends", check.shares[first] * rays));
+}
+
+}  // namespace
+
+LightHeed heedLights(const EmbreeScene& scene, float cellSize, double rays, const ParallelFor& parallelFor) {
     constexpr double kStray = 0.05;  // share of the light that may fall on backs without a word: on sheets, and through cracks
     const LightCheck check = checkLights(scene, parallelFor);
     LightHeed heed{.warnings = {}, .insideOut = check.shareOnBacks > 0.5};
     for (const std::string& name : check.idle) {
         heed.warnings.push_back(fmt::format("light \"{}\" meets no surface: it is too far away, or looks the other way", name));
     }
+    heedDimLights(check, scene.scene().lights, rays, heed.warnings);
     const float most = clvMostFlux(kClvInjectTrackLength, cellSize);
     const Bounds& bounds = scene.scene().bounds;
     if (!(largestRayFlux(lightsThatSend(scene.scene()), bounds.lo, bounds.hi) <= most)) {
@@ -25,7 +43,7 @@ LightHeed heedLights(const EmbreeScene& scene, float cellSize, const ParallelFor
         heed.warnings.push_back("most of the light falls on the backs of surfaces: all of them are taken to face the other way");
     } else if (check.shareOnBacks > kStray) {
         heed.warnings.push_back(fmt::format(
-            "{:.0f} % of the light falls on the backs of surfaces; what is enclosed by backs counts as solid, and its light is lost", 100.0 * check.shareOnBacks));
+            "{:.0f} % of the light falls on the backs of surfaces; what is enclosed by backs counts as solid, and light in there is wrong", 100.0 * check.shareOnBacks));
     }
     return heed;
 }

@@ -14,7 +14,7 @@ struct LightHeed {
 };
 
 // What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out. cellSize: m, of the cells that
-// take the light.
-LightHeed heedLights(const EmbreeScene& scene, float cellSize, const ParallelFor& parallelFor);
+// take the light. rays: that carry it.
+LightHeed heedLights(const EmbreeScene& scene, float cellSize, double rays, const ParallelFor& parallelFor);
 
 }  // namespace clv

@@ -21,6 +21,7 @@ struct IrradianceCommand {
     void run(const CLI::App& command) const {
         Report report = startReport(command, common, true);
         if (!motion.empty()) throw InputError("--motion: light in motion is not available yet; expected a still scene");
+        keepInputs(out, {scene.scene, scene.lights, points, light.proxy});
         const Scene loaded = loadScene(scene, report);
         const PointTable table = readPointTable(points, loaded.anchor);
         StagedFile output(out);

@@ -2,6 +2,7 @@
 
 #include "bindings/cli/cpu_lighting.h"
 #include "bindings/cli/heed_lights.h"
+#include "bindings/cli/heed_points.h"
 #include "bindings/cli/scene_facts.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
@@ -48,6 +49,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
             proxy_.emplace(*proxyScene_);
         }
         heedLights();
+        for (const std::string& warning : heedPoints(*embree_, points, parallelFor)) report.warnings.push_back(warning);
         if (needs.feedback) surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
         if (automatic) chooseJudges();
         const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
@@ -61,7 +63,8 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
 }
 
 void LightJob::heedLights() {
-    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, options.resolution > 0 ? options.resolution : resolutionsFor(double(options.rays)).front(), options).cellSize, parallelFor);
+    const int coarsest = options.resolution > 0 ? options.resolution : resolutionsFor(double(options.rays)).front();
+    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, coarsest, options).cellSize, double(options.rays), parallelFor);
     report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
     if (!heed.insideOut) return;
     turned_ = scene;

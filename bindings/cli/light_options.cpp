@@ -25,6 +25,7 @@ void addLightOptions(CLI::App& command, LightOptions& options) {
                                 fmt::format("Segments traced in all, pilots, frames and every bounce counted; default {}", options.rays));
     addPositiveOption(command, "--seconds", options.seconds, "Run time instead of a number of rays, s")->excludes(rays);
     command.add_option("--frames", options.frames, "Frames that the rays are shared out among, merged one after the other")
+        ->excludes("--seconds")
         ->check(CLI::Range(1u, kMaxFrames))
         ->capture_default_str();
     command

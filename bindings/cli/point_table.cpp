@@ -20,6 +20,7 @@ namespace {
 constexpr std::string_view kHeader = "px,py,pz,nx,ny,nz";
 constexpr std::size_t kColumns = 6;
 constexpr double kUnitTolerance = 1e-3;
+constexpr std::size_t kLongestLine = 4000;  // characters
 
 std::string_view withoutCarriageReturn(std::string_view line) {
     if (line.ends_with('\r')) line.remove_suffix(1);
@@ -61,6 +62,15 @@ ReferencePoint pointFromRow(const std::array<double, kColumns>& row, const glm::
     return {glm::vec3(position - anchor), glm::vec3(normal / length)};
 }
 
+// Whether there was one. A line that never ends is refused before it takes all memory.
+bool readLine(std::istream& input, std::string& line, const std::string& file, std::size_t number) {
+    char text[kLongestLine + 2];
+    input.getline(text, sizeof text);
+    line.assign(text, std::size_t(input.gcount()) - (input.good() ? 1 : 0));
+    if (input.fail() && input.gcount() == kLongestLine + 1) throw InputError(fmt::format("{}:{}: expected at most {} characters", file, number, kLongestLine));
+    return !input.fail();
+}
+
 }  // namespace
 
 PointTable readPointTable(const std::string& file, const glm::dvec3& anchor) {
@@ -68,14 +78,14 @@ PointTable readPointTable(const std::string& file, const glm::dvec3& anchor) {
     if (!input || std::filesystem::is_directory(file)) throw InputError(fmt::format("{}: expected a file of points that can be read", file));
 
     std::string line;
-    std::getline(input, line);
+    readLine(input, line, file, 1);
     std::string_view header = line;
     // Spreadsheets put a byte order mark in front of UTF-8.
     if (header.starts_with("\xef\xbb\xbf")) header.remove_prefix(3);
     if (withoutCarriageReturn(header) != kHeader) throw InputError(fmt::format("{}:1: expected the header {}", file, kHeader));
 
     PointTable table;
-    for (std::size_t number = 2; std::getline(input, line); ++number) {
+    for (std::size_t number = 2; readLine(input, line, file, number); ++number) {
         const std::string_view row = withoutCarriageReturn(line);
         if (row.empty()) continue;
         const std::string place = fmt::format("{}:{}", file, number);

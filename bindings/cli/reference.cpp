@@ -21,6 +21,7 @@ struct ReferenceCommand {
 
     void run(const CLI::App& command) const {
         Report report = startReport(command, common);
+        keepInputs(out, {scene.scene, scene.lights, points});
         const Scene loaded = loadScene(scene, report);
         const PointTable table = readPointTable(points, loaded.anchor);
         StagedFile output(out);

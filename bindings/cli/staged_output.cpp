@@ -44,6 +44,13 @@ fs::path outputFolder(const std::string& name) {
     return name;
 }
 
+void keepInputs(const std::string& out, std::initializer_list<std::string> inputs) {
+    std::error_code none;
+    for (const std::string& input : inputs) {
+        if (fs::equivalent(out, input, none)) throw InputError(fmt::format("--out {}: would replace {}, which is read; expected another name", out, input));
+    }
+}
+
 StagedOutput::StagedOutput(const fs::path& folder) : folder_(folder) {
     hidden_ = guardFolder([&] {
         std::string pattern = (folder / ".clv-XXXXXX").string();

@@ -1,6 +1,7 @@
 // Output files that appear under their names complete, or not at all.
 #pragma once
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@ namespace clv {
 
 // Makes the folder where it is missing. Throws InputError.
 std::filesystem::path outputFolder(const std::string& name);
+
+// Throws InputError where `out` is one of the files that are read, which may be empty names or those of built-in scenes.
+void keepInputs(const std::string& out, std::initializer_list<std::string> inputs);
 
 // Files are written into a hidden folder inside the one where they belong, and renamed at the end. The hidden folder goes with
 // the object, and on an interrupt.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bindings/embree/seen_faces.h"
 #include "bindings/scene/scene_facts.h"
 #include "clv/stages/rsm.h"
 
@@ -26,10 +27,8 @@ Met whatIsMet(const EmbreeScene& embree, const ClvLight& light) {
     Met met;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (hits[k].primitive == kClvNoPrimitive) continue;
-        const glm::uvec3& t = scene.triangles[hits[k].primitive];
-        const vec3 front = cross(scene.positions[t.y] - scene.positions[t.x], scene.positions[t.z] - scene.positions[t.x]);
         const vec3 flux = rays[k].flux * (1.0f / float(kSide * kSide));
-        (dot(front, rays[k].direction) < 0.0f ? met.fronts : met.backs) += double(flux.x) + double(flux.y) + double(flux.z);
+        (dot(windingNormal(scene, hits[k].primitive), rays[k].direction) < 0.0f ? met.fronts : met.backs) += double(flux.x) + double(flux.y) + double(flux.z);
     }
     return met;
 }
@@ -48,7 +47,9 @@ LightCheck checkLights(const EmbreeScene& embree, const ParallelFor& parallelFor
         if (sendsLight(lights[k]) && !(met[k].fronts + met[k].backs > 0.0)) check.idle.push_back(lights[k].name);
         sum.fronts += met[k].fronts, sum.backs += met[k].backs;
     }
-    if (sum.backs > 0.0) check.shareOnBacks = sum.backs / (sum.fronts + sum.backs);
+    const double all = sum.fronts + sum.backs;
+    if (sum.backs > 0.0) check.shareOnBacks = sum.backs / all;
+    for (const Met& one : met) check.shares.push_back(all > 0.0 ? (one.fronts + one.backs) / all : 0.0);
     return check;
 }
 

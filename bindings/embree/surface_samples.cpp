@@ -3,33 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clv/math/sampling.h"
+#include "bindings/embree/seen_faces.h"
 #include "clv/math/sobol.h"
 
 namespace clv {
 namespace {
 
-constexpr int kProbes = 16;
 constexpr std::size_t kPiece = 512;  // points
-
-// Right-handed normal of a triangle, not of unit length.
-vec3 windingNormal(const Scene& scene, std::uint32_t triangle) {
-    const glm::uvec3& c = scene.triangles[triangle];
-    return cross(scene.positions[c.y] - scene.positions[c.x], scene.positions[c.z] - scene.positions[c.x]);
-}
-
-// Whether the hemisphere over a receiver shows more fronts of surfaces than backs.
-bool seesFronts(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed) {
-    int fronts = 0, backs = 0;
-    for (uint k = 0; k < kProbes; ++k) {
-        const vec4 u = clvSobol4(k, seed);
-        const vec3 direction = clvCosineFromSquare(vec2(u.x, u.y), receiver.normal);
-        const ClvHit hit = scene.hit(receiver.position + receiver.normal * scene.surfaceOffset(), direction, kClvFar);
-        if (hit.primitive == 0xffffffffu) continue;
-        (dot(windingNormal(scene.scene(), hit.primitive), direction) < 0.0f ? fronts : backs)++;
-    }
-    return fronts > backs;
-}
 
 // The bits of a 10-bit number, two places apart.
 std::uint32_t spread(std::uint32_t x) {
@@ -73,7 +53,8 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
             for (int side = 0; side < 2; ++side) {
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};
-                kept[2 * k + side] = seesFronts(embree, receiver, clvHashCombine(seed, uint(2 * k + side)));
+                const SeenFaces seen = seenFaces(embree, receiver, clvHashCombine(seed, uint(2 * k + side)));
+                kept[2 * k + side] = seen.fronts > seen.backs;
             }
         }
     });

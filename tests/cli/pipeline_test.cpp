@@ -7,6 +7,8 @@
 #include "bindings/cli/scene_facts.h"
 #include "bindings/embree/task_pool.h"
 #include "bindings/embree/visible_points.h"
+#include "bindings/scene/scene_builder.h"
+#include "bindings/scene/shapes.h"
 #include "furnace/surface_points.h"
 
 namespace clv::test {
@@ -51,6 +53,78 @@ TEST(Furnaces, allBouncesAreAGeometricSeries) {
     fine.resolution = 32;
     EXPECT_NEAR(meanIrradiance(lightOf(sphere, options, surfacePoints(sphere, 4096, 3)).irradiance) / 4.0, 1.0, 1e-3);
     EXPECT_NEAR(meanIrradiance(lightOf(box, fine, surfacePoints(box, 8192, 3)).irradiance) / (kLampFlux / surfaceArea(box)), 1.0, 3e-3);
+}
+
+// Closed rooms of 2 m beside each other, walls of one albedo each, and a lamp in each.
+Scene rooms(const std::vector<glm::vec3>& albedos, float lampOfTheSecond = 1.0f) {
+    SceneBuilder builder("rooms");
+    const auto none = [](const glm::ivec3&) { return false; };
+    for (std::size_t k = 0; k < albedos.size(); ++k) {
+        const std::uint32_t wall = builder.addMaterial({"wall", albedos[k], -1});
+        builder.beginNode("room");
+        const double x = 4.0 * double(k);
+        BlockGrid grid{{x - 1.0, x + 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, none, true};
+        addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return wall; });
+        builder.addLight("lamp " + std::to_string(k), makePointLight(glm::vec3(k == 0 ? 1.0f : lampOfTheSecond)), {x + 0.2, 0.1, -0.3});
+    }
+    return std::move(builder).finish("rooms");
+}
+
+// Evenly over the walls of a room around x, facing into it.
+std::vector<ReferencePoint> pointsOnWalls(float x) {
+    std::vector<ReferencePoint> points;
+    constexpr int kSteps = 12;
+    for (int wall = 0; wall < 6; ++wall) {
+        for (int k = 0; k < kSteps * kSteps; ++k) {
+            glm::vec3 p(0.0f), n(0.0f);
+            const int axis = wall / 2;
+            p[axis] = wall % 2 ? 1.0f : -1.0f, n[axis] = -p[axis];
+            p[(axis + 1) % 3] = (float(k % kSteps) + 0.5f) * 2.0f / kSteps - 1.0f;
+            p[(axis + 2) % 3] = (float(k / kSteps) + 0.5f) * 2.0f / kSteps - 1.0f;
+            points.push_back({p + glm::vec3(x, 0, 0), n});
+        }
+    }
+    return points;
+}
+
+TEST(Furnaces, everyChannelHasItsOwnSeries) {
+    for (const glm::dvec3& albedo : {glm::dvec3(0.99, 0.9, 0.5), glm::dvec3(0.95, 0.93, 0.88), glm::dvec3(0.5, 0.99, 0.0)}) {
+        const Scene scene = rooms({glm::vec3(albedo)});
+        LightOptions options = optionsFor(true, 2u << 20);
+        options.resolution = 16;
+        const auto light = lightOf(scene, options, pointsOnWalls(0.0f));
+        const glm::dvec3 exact = albedo / (1.0 - albedo) * kLampFlux / 24.0;
+        glm::dvec3 mean(0.0);
+        for (const glm::vec3& e : light.irradiance) mean += glm::dvec3(e) / double(light.irradiance.size());
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], exact[c], 0.01 * exact[c]) << albedo[c];
+        EXPECT_TRUE(light.report.warnings.empty());
+    }
+}
+
+TEST(Furnaces, everyRoomHasItsOwnSeries) {
+    const Scene scene = rooms({glm::vec3(0.99f), glm::vec3(0.9f)});
+    LightOptions options = optionsFor(true, 4u << 20);
+    options.resolution = 16;
+    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, pointsOnWalls(0.0f)).irradiance) / (99.0 * kLampFlux / 24.0), 1.0, 0.03);
+    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, pointsOnWalls(4.0f)).irradiance) / (9.0 * kLampFlux / 24.0), 1.0, 0.03);
+}
+
+bool isWarned(const Light& light, const std::string& words) {
+    return std::ranges::any_of(light.report.warnings, [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
+    const LightOptions options = optionsFor(false, 64u << 10);
+    const Scene dim = rooms({glm::vec3(0.5f), glm::vec3(0.5f)}, 1e-6f), like = rooms({glm::vec3(0.5f), glm::vec3(0.5f)}, 0.5f);
+    const auto inside = pointsOnWalls(0.0f);
+    EXPECT_TRUE(isWarned(lightOf(dim, options, inside), "light \"lamp 1\" sends so little"));
+    EXPECT_TRUE(lightOf(like, options, inside).report.warnings.empty());
+    SceneBuilder builder("solid");
+    builder.beginNode("box");
+    addBox(builder, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, builder.addMaterial({"grey", glm::vec3(0.5f), -1}));
+    builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.0, 3.0, 0.0});
+    EXPECT_TRUE(isWarned(lightOf(std::move(builder).finish("solid"), options, inside), "100.0 % of the points face the backs"));
+    EXPECT_TRUE(isWarned(lightOf(like, options, pointsOnWalls(8.0f)), "864 of 864 points lie outside of the scene's bounds, by up to 4 m"));
 }
 
 // Surface points that the scene's cameras see.

@@ -55,6 +55,13 @@ TEST_F(PointTableFile, normalsWithinATenthOfAPercentAreAcceptedAndMadeUnit) {
     EXPECT_NE(complaint(kHeader + "0,0,0,0,0.9989,0\n"), "accepted");
 }
 
+TEST_F(PointTableFile, linesWithoutEndAndBytesOfZeroAreRefused) {
+    EXPECT_EQ(complaint(std::string(1 << 20, 'x')), file("p.csv") + ":1: expected at most 4000 characters");
+    EXPECT_EQ(complaint(kHeader + "0,0,0,0,1,0\n" + std::string(4001, ' ') + "0,0,0,0,1,0\n"), file("p.csv") + ":3: expected at most 4000 characters");
+    EXPECT_EQ(parse(kHeader + std::string(3989, ' ') + "0,0,0,0,1,0").points.size(), 1u);
+    EXPECT_NE(complaint(kHeader + "0,0,0,0,1,0" + std::string(1, '\0') + ",7\n"), "accepted");
+}
+
 TEST_F(PointTableFile, refusalsNameTheFileTheLineAndWhatWasExpected) {
     const std::string p = file("p.csv");
     const std::string good = "0,0,0,0,1,0\n";

@@ -50,11 +50,24 @@ TEST_F(Usage, helpAndVersionAreAnsweredOnStdout) {
     EXPECT_EQ(runCommand({"--version"}).out, version + "\n");
 }
 
+TEST_F(Usage, filesThatAreReadAreNotReplaced) {
+    const std::string lights = write("l.json", R"({"lights": [{"type": "point", "position": [0, 1, 0], "intensity": [1, 1, 1]}]})");
+    std::filesystem::create_symlink(points_, file("link.csv"));
+    for (const char* command : {"irradiance", "reference"}) {
+        for (const std::string& out : {points_, lights, file("link.csv")}) {
+            const std::string before = read(out);
+            expectRefused({command, "--scene", "cornell", "--lights", lights, "--points", points_, "--out", out}, {"--out", out, "which is read"});
+            EXPECT_EQ(read(out), before);
+        }
+    }
+}
+
 TEST_F(Usage, badUsageIsRefusedInOneLine) {
     expectRefused({}, {"clv --help"});
     expectRefused({"paint"}, {"paint"});
     expectRefused({"irradiance", "--scene", "cornell"}, {"clv irradiance", "--points"});
     expectRefused(call("irradiance", {"--wrong"}), {"--wrong"});
+    expectRefused(call("irradiance", {"--seconds", "0.3", "--frames", "2"}), {"--seconds", "--frames"});
     expectRefused(call("reference", {"--threads", "-1"}), {"--threads"});
     expectRefused(call("reference", {"--seed", "-1"}), {"--seed", "4294967295"});
     expectRefused({"report", "--out", file("out"), "--truth-samples", "-1"}, {"--truth-samples", "expected a count such as 65536, 64k or 4M"});

@@ -1,0 +1,16 @@
+// What is wrong with where points lie.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bindings/embree/embree_scene.h"
+#include "clv/cpu/parallel.h"
+#include "clv/stages/evaluate.h"
+
+namespace clv {
+
+// Warnings, a line each, of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.
+std::vector<std::string> heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+
+}  // namespace clv
