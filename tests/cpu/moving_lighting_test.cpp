@@ -1,6 +1,7 @@
 // Light that follows a camera through a hall.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <thread>
 
 #include "cpu/moving_scene.h"
@@ -198,6 +199,26 @@ TEST(MovingLighting, isDarkBeforeItsFirstMove) {
     lighting.moveTo(viewFrom(-4.0, -1.0, 0.0));
     hall.frame(lighting, 5000);
     EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(-4.0f, 0.0f, 0.0f), 2.0f))).x, 0.0f);
+}
+
+TEST(MovingLighting, framesWithoutRaysAndStepsOfTimeThatCannotBeHarmNothing) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.movingLights = true, settings.merge.stillTime = 10.0f;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    lighting.moveTo(viewFrom(-4.0, -1.0, 0.0));
+    const auto receivers = floorAround(vec3(-4.0f, 0.0f, 0.0f), 2.0f);
+    hall.frame(lighting, 5000);
+    const auto before = irradianceAt(lighting, receivers);
+    hall.frame(lighting, 0);
+    EXPECT_EQ(irradianceAt(lighting, receivers), before);
+    for (float timestep : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), std::numeric_limits<float>::max()}) {
+        hall.frame(lighting, 5000, timestep);
+        for (const MovingVolume& volume : lighting.volumes()) {
+            for (float deposit : volume.history()) ASSERT_TRUE(clvIsFinite(deposit)) << timestep;
+            for (float frames : volume.frames()) ASSERT_TRUE(frames >= 1.0f && frames <= 7.0f) << timestep;
+        }
+    }
 }
 
 TEST(MovingLighting, forgetsAllLightOnReset) {

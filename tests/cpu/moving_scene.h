@@ -45,11 +45,11 @@ struct LitHall {
     Tracer tracer() const {
         return [this](std::span<ClvRay> rays) { scene.trace(rays); };
     }
-    void frame(MovingLighting& lighting, std::size_t rays) const {
+    void frame(MovingLighting& lighting, std::size_t rays, float timestep = 1.0f / 60.0f) const {
         lighting.rays(sampler, rays);
         lighting.trace();
         lighting.inject();
-        lighting.merge(1.0f / 60.0f);
+        lighting.merge(timestep);
     }
 };
 

@@ -54,6 +54,9 @@ TEST(MergeAlpha, keepsItsDigitsHoweverShortTheStep) {
     }
     EXPECT_EQ(clvDecayed(0.0f, 5.0f), 0.0f);
     EXPECT_EQ(clvDecayed(kInfinity, 5.0f), 1.0f);
+    EXPECT_EQ(clvDecayed(kInfinity, 0.0f), 0.0f);
+    EXPECT_EQ(clvDecayed(-1.0f, 5.0f), 0.0f);
+    EXPECT_EQ(clvDecayed(kNan, 5.0f), 0.0f);
 }
 
 TEST(MergeAlpha, doesNotDependOnTheFrameRate) {

@@ -99,12 +99,13 @@ public:
         }
     }
 
-    // About `count` rays, fewer those that cannot reach any cascade.
+    // About `count` rays, fewer those that cannot reach any cascade. A frame without rays leaves the history as it is.
     void rays(const TexelSampler& sampler, std::size_t count) {
         rays_.draw(sampler, count, parallelFor_);
         rays_.cull(std::span(cascades_.volumes, cascades_.count), parallelFor_);
     }
     void trace() { rays_.trace(tracer_, parallelFor_); }
+    // Where memory runs out on the way, nothing is injected.
     void inject() {
         const std::size_t chunks = std::size_t(settings_.chunks);
         auto injectOne = [&](std::size_t job) {
@@ -112,10 +113,16 @@ public:
             const std::size_t chunk = job % chunks;
             clv::inject(volume.level(), settings_.layout, settings_.rule, rays_.part(chunk), volume.partial(int(chunk)));
         };
-        parallelFor_(volumes_.size() * chunks, std::ref(injectOne));
+        try {
+            parallelFor_(volumes_.size() * chunks, std::ref(injectOne));
+        } catch (...) {
+            for (MovingVolume& volume : volumes_) volume.dropFrame();
+            throw;
+        }
     }
     // timestep: s, > 0, since the last frame.
     void merge(float timestep) {
+        if (rays_.perHalf() == 0) return;
         ClvMergeSettings merge = settings_.merge;
         merge.timestep = timestep;
         for (MovingVolume& volume : volumes_) volume.merge(1.0f / float(rays_.perHalf()), merge, parallelFor_);

@@ -91,9 +91,13 @@ public:
         return readIrradiance(settings_.layout, history_.deposits, weights, settings_.layout.read(receiver.normal));
     }
 
+    // Forgets what was injected since the last merge.
+    void dropFrame() {
+        for (PartialVolume& partial : partials_) partial.clear();
+    }
     // Forgets all light, and stays where it is.
     void reset() {
-        for (PartialVolume& partial : partials_) partial.clear();
+        dropFrame();
         history_.clear();
         std::fill(frames_.begin(), frames_.end(), 0.0f);
     }

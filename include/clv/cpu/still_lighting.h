@@ -31,7 +31,7 @@ public:
     // Takes the memory of `count` rays before the first frame.
     void reserveRays(std::size_t count) { rays_.reserve(count); }
 
-    // `count` rays, rounded up so that each half and chunk has as many. Allocates only when it exceeds every count so far.
+    // `count` rays, rounded up so that each half and chunk has as many; without any, the frame leaves the history as it is. Allocates only when it exceeds every count so far.
     void rays(const TexelSampler& sampler, std::size_t count) { rays_.draw(sampler, count, parallelFor_); }
 
     void trace() { rays_.trace(tracer_, parallelFor_); }
@@ -39,13 +39,18 @@ public:
     void inject() {
         for (Volume& volume : volumes_) inject(volume);
     }
-    // Into one level only: a level that joins late in a frame still gets all of the frame's rays.
+    // Into one level only: a level that joins late in a frame still gets all of the frame's rays. Where memory runs out on the way, it gets none.
     void inject(Volume& volume) {
         const int chunks = settings_.parts.chunks;
         auto injectPart = [&](std::size_t part) {
             clv::inject(volume.level(), settings_.layout, settings_.rule, rays_.part(part), volume.partial(int(part) / chunks, int(part) % chunks));
         };
-        parallelFor_(std::size_t(settings_.parts.halves) * chunks, std::ref(injectPart));
+        try {
+            parallelFor_(std::size_t(settings_.parts.halves) * chunks, std::ref(injectPart));
+        } catch (...) {
+            volume.dropFrame();
+            throw;
+        }
     }
 
     void merge() {
@@ -53,6 +58,7 @@ public:
     }
     void merge(Volume& volume) {
         const double perHalf = double(rays_.perHalf());
+        if (perHalf == 0.0) return;
         volume.merge(perHalf * settings_.parts.halves, float(1.0 / perHalf), parallelFor_);
     }
 

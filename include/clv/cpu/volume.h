@@ -59,10 +59,14 @@ public:
         parallelFor(pieces * parts_.halves, std::ref(mergePiece));
     }
 
+    // Forgets what was injected since the last merge.
+    void dropFrame() {
+        for (PartialVolume& partial : partials_) partial.clear();
+    }
     // Forgets all light.
     void reset() {
         rays_ = 0.0;
-        for (PartialVolume& partial : partials_) partial.clear();
+        dropFrame();
         for (AlignedFloats& half : history_) std::fill(half.begin(), half.end(), 0.0f);
     }
 

@@ -24,9 +24,11 @@ struct ClvMovementScales {  // 16 bytes
     float pad0;
 };
 
-// Share of a value that wears off within `timestep` (s) at `rate` (1/s), [0, 1]. Two half steps wear off as much as one.
+// Share of a value that wears off within `timestep` (s) at `rate` (1/s), [0, 1]. Two half steps wear off as much as one. A step
+// below 0 or that is NaN wears off nothing.
 CLV_FN float clvDecayed(float timestep, float rate) {
     float x = timestep * rate;
+    if (clvIsNan(x) || x < 0.0f) return 0.0f;
     // 1 - exp(-x) by its series where the difference would lose digits.
     if (x < 0.1f) return x * (1.0f - x * 0.5f * (1.0f - x * (1.0f / 3.0f) * (1.0f - x * 0.25f * (1.0f - x * 0.2f))));
     return 1.0f - exp(-x);
