@@ -14,7 +14,8 @@ namespace clv {
 namespace {
 
 constexpr double kFarScene = 1000.0;     // m: beyond it floats round coordinates to more than 0.1 mm
-constexpr double kFarInExtents = 4.0;    // an anchor pays only when the centre lies several extents away
+constexpr double kFarInExtents = 4.0;    // an anchor pays only when the centre lies several extents away,
+constexpr double kVeryFar = 1024.0;      // and at any distance when it lies as many away
 
 constexpr float kFineDetail = 0.01f;     // of a triangle's size: what may be lost of it without a word
 
@@ -25,7 +26,7 @@ struct DoubleBounds {
 glm::dvec3 chooseAnchor(const DoubleBounds& bounds) {
     glm::dvec3 center = 0.5 * (bounds.lo + bounds.hi);
     double distance = glm::length(center), extent = glm::length(bounds.hi - bounds.lo);
-    bool far = distance > kFarScene && distance > kFarInExtents * extent;
+    bool far = distance > kVeryFar * extent || (distance > kFarScene && distance > kFarInExtents * extent);
     return far ? glm::round(center) : glm::dvec3(0.0);
 }
 

@@ -60,6 +60,15 @@ TEST_F(GltfImport, keepsMillimetresFarFromTheOrigin) {
         EXPECT_LT(glm::distance(scene.anchor + glm::dvec3(corner(scene, 0, i)), expected), 1e-6);
 }
 
+TEST_F(GltfImport, keepsThousandthsOfAMillimetreInATinySceneALittleAway) {
+    TestGltf gltf = triangleGltf();
+    gltf.document["nodes"][0]["translation"] = {100.3, 0, 0};
+    gltf.document["nodes"][0]["scale"] = {0.004, 0.004, 0.004};
+    const Scene scene = load(gltf);
+    EXPECT_EQ(scene.anchor, glm::dvec3(100.0, 0.0, 0.0));
+    EXPECT_LT(glm::distance(scene.anchor + glm::dvec3(corner(scene, 0, 1)), glm::dvec3(100.304, 0, 0)), 3e-8);
+}
+
 TEST_F(GltfImport, anOrdinarySceneHasNoAnchor) {
     TestGltf gltf = triangleGltf();
     gltf.document["nodes"][0]["translation"] = {500, 0, 0};
