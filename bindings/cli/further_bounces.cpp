@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kLastFed = 8;                        // the last bounce that is read from the volume of the one before
 constexpr int kLastWithoutLimit = 24;              // the same where there is no end to the light
+constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays that are left that a bounce leaves to later ones
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left out
-constexpr double kWalked = 0.25;                   // of the rays that are left to later bounces, at most so many find where their light is
+constexpr double kWalked = 0.125, kSpread = 0.125;  // of the rays that are left to later bounces, those that find where their light is, and those that spread it
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
@@ -30,8 +31,6 @@ public:
 
     void add(std::span<const LitLevel> source, const TakeLight& take) {
         Progress progress("bounces");
-        // Rays go to bounces in proportion to their light.
-        const double expected = std::clamp(total(power_) > 0.0 ? total(power_ * ratio_) / total(power_) : 0.0, 0.02, 0.98);
         const auto [resolution, level] = chooseLevel(source);
         const auto lookups = job_.makeLookups(level);
         const auto fill = [&](Pair& pair, std::span<const ClvRsmTexel> emitters, std::size_t count, std::uint32_t stream) {
@@ -50,7 +49,10 @@ public:
         int bounce = 2;
         for (; bounce <= (limitless() ? kLastWithoutLimit : kLastFed); ++bounce) {
             if (negligible() || !emitFrom(source)) return;
-            const auto count = std::max<std::size_t>(1, std::size_t(budget_ * (1.0 - expected) * std::pow(expected, bounce - 2)));
+            // Rays go to bounces in proportion to their light; all later ones have ratio_ of it, as far as is known.
+            const double later = std::clamp(total(power_ * ratio_) / total(power_), kLeastLater, kMostLater);
+            const std::size_t count = wholeRays(left_ * (1.0 - later));
+            left_ = std::max(left_ - double(count), 0.0);
             const glm::dvec3 next = fill(pair[bounce % 2], emitters_, count, 0x100u + std::uint32_t(bounce % 2));
             ratio_ = ratioOf(next, power_);
             job_.report.contraction = std::max({ratio_.x, ratio_.y, ratio_.z});
@@ -63,16 +65,7 @@ public:
         for (int c = 0; c < 3; ++c) power_[c] = ratio_[c] < kLargestRatio ? power_[c] : 0.0;
         if (negligible() || !emitFrom(source)) return;
         // What is left: all later bounces at once.
-        const double rays = budget_ * std::pow(expected, bounce - 2);
-        LightingSettings settings = job_.lightingSettings(1, std::uint64_t(kWalked * rays), 0x102u);
-        settings.emitters = emitters_.size();
-        const auto lighting = job_.makeLighting(settings);
-        WalkedLight walked;
-        job_.clock.time("walk", [&] { walked = walkOn(*lighting, emitters_, std::uint64_t(kWalked * rays), clvHashCombine(job_.seed, 0x103u), job_.scene.bounds); });
-        job_.report.rays += walked.rays, job_.report.walked = walked.bounces;
-        Pair rest;
-        fill(rest, walked.emitters, std::max<std::size_t>(1, std::size_t(std::max(rays - double(walked.rays), 0.0))), 0x104u);
-        take(rest.level, 1.0f);
+        addRest(fill, take);
     }
 
 private:
@@ -81,6 +74,11 @@ private:
         std::vector<LitLevel> level;  // none or one
     };
 
+    // Of many a round number, which back ends whose sums differ in their last places agree on.
+    static std::size_t wholeRays(double rays) {
+        constexpr double kMany = 1 << 16, kRound = 256;
+        return std::max<std::size_t>(1, std::size_t(rays < kMany ? rays : std::floor(rays / kRound) * kRound));
+    }
     static glm::dvec3 ratioOf(const glm::dvec3& next, const glm::dvec3& power) {
         glm::dvec3 ratio(0.0);
         for (int c = 0; c < 3; ++c) ratio[c] = power[c] > 0.0 ? next[c] / power[c] : 0.0;
@@ -101,6 +99,30 @@ private:
         if (!job_.automatic) return {first[0].resolution, first[0].light->level()};
         const int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
         return {resolution, job_.makeLevel(resolution)};
+    }
+
+    // The light of what the emitters send, and of all bounces after that. A walk finds how much it is and where; its places are few, and
+    // bright spots lie before them, so that a volume lit by them is read for what surfaces send on: that leaves all of them.
+    template <class Fill>
+    void addRest(const Fill& fill, const TakeLight& take) {
+        const auto share = [&](double part) { return wholeRays(part * left_); };
+        LightingSettings settings = job_.lightingSettings(1, share(kWalked), 0x102u);
+        settings.emitters = emitters_.size();
+        const auto lighting = job_.makeLighting(settings);
+        WalkedLight walked;
+        job_.clock.time("walk", [&] { walked = walkOn(*lighting, emitters_, share(kWalked), clvHashCombine(job_.seed, 0x103u), job_.scene.bounds); });
+        job_.report.rays += walked.rays, job_.report.walked = walked.bounces;
+        Pair spread, rest;
+        fill(spread, walked.emitters, share(kSpread), 0x104u);
+        const std::vector<ClvRsmTexel> first = emitters_;
+        power_ = fluxOf(walked.emitters) - fluxOf(first);
+        if (emitFrom(spread.level)) {
+            for (std::size_t k = 0; k < first.size(); ++k) emitters_[k].flux += first[k].flux;
+        } else {
+            emitters_ = first;
+        }
+        fill(rest, emitters_, share(1.0 - kWalked - kSpread), 0x105u);
+        take(rest.level, 1.0f);
     }
 
     // Surfaces send on what the volume says they receive; the sum over the surfaces is set to what the rays brought there, so that no
@@ -152,6 +174,7 @@ private:
     const glm::dvec3 first_;
     glm::dvec3 ratio_;   // by which the power falls from bounce to bounce, about
     const double budget_;  // rays
+    double left_ = budget_;
     std::vector<ClvRsmTexel> emitters_;
 };
 

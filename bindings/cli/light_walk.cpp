@@ -15,12 +15,6 @@ constexpr std::size_t kFewestRays = 32;      // of a bounce: with fewer what is 
 constexpr std::size_t kMostAtOnce = 4096;
 constexpr double kNegligible = 1e-3;         // share of all the walk's light at which the rest is extrapolated
 
-glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters) {
-    glm::dvec3 sum(0.0);
-    for (const ClvRsmTexel& texel : emitters) sum += glm::dvec3(texel.flux);
-    return sum;
-}
-
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
 // By which the power of each channel falls from bounce to bounce, over the later half of them.
@@ -36,6 +30,12 @@ void fillRow(std::vector<ClvRsmTexel>& emitters) {
 }
 
 }  // namespace
+
+glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters) {
+    glm::dvec3 sum(0.0);
+    for (const ClvRsmTexel& texel : emitters) sum += glm::dvec3(texel.flux);
+    return sum;
+}
 
 WalkedLight walkOn(Lighting& lighting, std::span<const ClvRsmTexel> first, std::uint64_t rays, std::uint32_t seed, const Bounds& bounds) {
     WalkedLight walked;

@@ -16,6 +16,9 @@ struct WalkedLight {
     int bounces = 0;
 };
 
+// W a channel.
+glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters);
+
 // `first`: what surfaces send on after the first of these bounces. `rays`: at most as many, about. From the rays of one bounce follow the
 // lit places of the next, each with its own colour, and from these as many fewer rays as there is less light: all carry about the
 // same. So each part of a scene, and each channel, goes at its own pace, as the light of rooms that are shut off from each other does; no volume, and no error of it, is
