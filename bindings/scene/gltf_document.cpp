@@ -117,7 +117,7 @@ void checkAccessors(const GltfDocument& document) {
     }
 }
 
-// Every node has at most one parent and none lies below itself, so that walks end.
+// Every node has at most one parent, none lies below itself, and roots have no parent and are listed once: walks end, and meet each node once.
 void checkNodes(const GltfDocument& document) {
     const std::vector<JsonReader> nodes = document.root().elements("nodes");
     std::vector<std::size_t> parent(nodes.size(), nodes.size());
@@ -131,6 +131,15 @@ void checkNodes(const GltfDocument& document) {
         std::size_t depth = 0;
         for (std::size_t above = parent[i]; above != nodes.size(); above = parent[above])
             if (++depth > kDeepestNode) nodes[i].fail(fmt::format("at most {} nodes above it, and no cycle", kDeepestNode));
+    }
+    for (const JsonReader& scene : document.root().elements("scenes")) {
+        std::vector<bool> isRoot(nodes.size());
+        for (const JsonReader& root : scene.elements("nodes")) {
+            const std::size_t index = root.index(nodes.size());
+            if (parent[index] != nodes.size()) root.fail(fmt::format("a node without a parent; node {} has one", index));
+            if (isRoot[index]) root.fail(fmt::format("a node that is not listed before; node {} is", index));
+            isRoot[index] = true;
+        }
     }
 }
 

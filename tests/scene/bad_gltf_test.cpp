@@ -77,6 +77,11 @@ const Damage kDamages[] = {
     {"allDegenerate", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {0, 1, 1}; }, "zero area"},
     {"nodeIsItsOwnParent", [](TestGltf& g) { g.document["nodes"][0]["children"] = {0}; }, "nodes[0]: expected at most"},
     {"nodeHasTwoParents", [](TestGltf& g) { g.document["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}}; }, "nodes[0].children[1]"},
+    {"nodeIsARootTwice", [](TestGltf& g) { g.document["scenes"][0]["nodes"] = {0, 0}; }, "scenes[0].nodes[1]: expected a node that is not listed before; node 0 is"},
+    {"nodeIsARootAndAChild", [](TestGltf& g) {
+         g.document["nodes"].push_back({{"children", {0}}});
+         g.document["scenes"][0]["nodes"] = {1, 0};
+     }, "scenes[0].nodes[1]: expected a node without a parent; node 0 has one"},
     {"childMissing", [](TestGltf& g) { g.document["nodes"][0]["children"] = {5}; }, "nodes[0].children[0]"},
     {"matrixTooShort", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 2, 3}; }, "nodes[0].matrix: expected 16 numbers"},
     {"matrixProjects", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, "nodes[0].matrix: expected a last row of 0, 0, 0, 1"},
