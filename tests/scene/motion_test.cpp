@@ -87,6 +87,7 @@ TEST_F(MotionFile, everyMistakeIsNamedWithItsPlace) {
         {R"({"lights": [{"name": "lamp", "keys": [{"frame": 0}]}, {"name": "lamp", "keys": [{"frame": 0}]}]})", "lights[1].name"},
         {R"({"camera": {"keys": [{"frame": 0, "yfov": 4}]}})", "camera.keys[0].yfov: expected an angle"},
         {R"({"camera": {"keys": [{"frame": 0, "roll": 4}]}})", "'roll'"},
+        {R"({"camera": {"keys": [{"frame": 0, "yfov": 1, "frame": 1}]}})", "expected 'frame' once in its object"},
     };
     for (const auto& [text, expected] : mistakes) {
         const std::string error = errorOf(text);
