@@ -111,6 +111,15 @@ TEST_F(ObjMaterial, aTriangleFarFromSmallOnesIsWarnedOf) {
                                                             "is not computed right; leave out what lies far away"});
 }
 
+TEST_F(ObjMaterial, triangleTooSmallForFloatsIsWarnedOf) {
+    const std::string square = "mtllib half.mtl\n" + kSquare + "v 2 0 0\nv 1e-12 0 0\nv 0 1e-12 0\nusemtl half\nf 1 2 3\nf 1 3 4\n";
+    write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
+    EXPECT_TRUE(loadScene(write("square.obj", square + "f 1 1 2\nf 1 2 5\n")).warnings.empty()) << "they have none in double precision, either";
+    const Scene scene = loadScene(write("square.obj", square + "f 1 2 5\no speck\nf 1 6 7\n"));
+    EXPECT_EQ(scene.droppedTriangles, 2u);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("square.obj") + ": 1 of its triangles have no area in single precision and are left out, the first one of node 'speck'"});
+}
+
 TEST_F(ObjMaterial, thatNoLibraryHasIsAWarningWithItsLine) {
     write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
     const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "usemtl nope\nf 1 2 3\nusemtl half\nf 1 3 4\nusemtl nope\nf 1 2 4\n"));
