@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 
@@ -98,7 +99,25 @@ std::size_t elementBytes(const JsonReader& accessor) {
 void checkElements(const JsonReader& view, const std::vector<JsonReader>& bufferViews, std::size_t count, std::size_t bytes) {
     const JsonReader& target = bufferViews[view["bufferView"].index(bufferViews.size())];
     const std::size_t stride = target.index("byteStride", bytes);
+    if (stride < bytes) target["byteStride"].fail(fmt::format("at least {} bytes, those of an element of {}", bytes, view.place()));
     checkRange(view, view.index("byteOffset", 0), (count - 1) * stride + bytes, target["byteLength"].index());
+}
+
+std::size_t indexBytes(const JsonReader& componentType) {
+    switch (componentType.index()) {
+        case 5121: return 1;
+        case 5123: return 2;
+        case 5125: return 4;
+        default: componentType.fail("5121, 5123 or 5125");
+    }
+}
+
+void checkListed(const JsonReader& place, const std::vector<std::uint32_t>& indices, std::size_t limit) {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] < limit && (i == 0 || indices[i] > indices[i - 1])) continue;
+        const std::string after = i == 0 ? "" : fmt::format(" after {}", indices[i - 1]);
+        place.fail(fmt::format("indices that rise, below {}, not {}{}", limit, indices[i], after));
+    }
 }
 
 void checkAccessors(const GltfDocument& document) {
@@ -112,12 +131,13 @@ void checkAccessors(const GltfDocument& document) {
         const JsonReader sparse = accessor["sparse"];
         const std::size_t sparseCount = sparse["count"].index(count + 1);
         if (sparseCount == 0) sparse["count"].fail("at least 1");
-        checkElements(sparse["indices"], bufferViews, sparseCount, componentBytes(sparse["indices"]["componentType"]));
+        checkElements(sparse["indices"], bufferViews, sparseCount, indexBytes(sparse["indices"]["componentType"]));
         checkElements(sparse["values"], bufferViews, sparseCount, bytes);
+        checkListed(sparse["indices"], readIndices(document, sparse["indices"], sparseCount), count);
     }
 }
 
-// Every node has at most one parent and none lies below itself, so that walks end.
+// Every node has at most one parent, none lies below itself, and roots have no parent and are listed once: walks end, and meet each node once.
 void checkNodes(const GltfDocument& document) {
     const std::vector<JsonReader> nodes = document.root().elements("nodes");
     std::vector<std::size_t> parent(nodes.size(), nodes.size());
@@ -132,6 +152,15 @@ void checkNodes(const GltfDocument& document) {
         for (std::size_t above = parent[i]; above != nodes.size(); above = parent[above])
             if (++depth > kDeepestNode) nodes[i].fail(fmt::format("at most {} nodes above it, and no cycle", kDeepestNode));
     }
+    for (const JsonReader& scene : document.root().elements("scenes")) {
+        std::vector<bool> isRoot(nodes.size());
+        for (const JsonReader& root : scene.elements("nodes")) {
+            const std::size_t index = root.index(nodes.size());
+            if (parent[index] != nodes.size()) root.fail(fmt::format("a node without a parent; node {} has one", index));
+            if (isRoot[index]) root.fail(fmt::format("a node that is not listed before; node {} is", index));
+            isRoot[index] = true;
+        }
+    }
 }
 
 }  // namespace
@@ -139,6 +168,18 @@ void checkNodes(const GltfDocument& document) {
 ByteRange bufferViewBytes(const GltfDocument& document, std::size_t index) {
     const JsonReader view = document.root()["bufferViews"].element(index);
     return {document.buffers[view["buffer"].index()].data() + view.index("byteOffset", 0), view["byteLength"].index()};
+}
+
+std::vector<std::uint32_t> readIndices(const GltfDocument& document, const JsonReader& source, std::size_t count) {
+    const std::size_t bytes = indexBytes(source["componentType"]), view = source["bufferView"].index();
+    if (document.root()["bufferViews"].element(view).index("byteStride", bytes) != bytes) source.fail("indices without a stride");
+    const std::uint8_t* next = bufferViewBytes(document, view).begin + source.index("byteOffset", 0);
+    std::vector<std::uint32_t> indices(count);
+    for (std::uint32_t& index : indices) {
+        std::memcpy(&index, next, bytes);
+        next += bytes;
+    }
+    return indices;
 }
 
 std::vector<std::uint8_t> readUri(const GltfDocument& document, const JsonReader& uri) {
@@ -167,8 +208,10 @@ GltfDocument readGltf(const std::string& file) {
     } else {
         document.json = parseJson(file, bytes);
     }
-    const JsonReader version = document.root()["asset"]["version"];
+    const JsonReader asset = document.root()["asset"], version = asset["version"];
     if (version.text().rfind("2.", 0) != 0) version.fail("glTF version 2.x");
+    if (const std::string least = asset.text("minVersion", "2.0"); least != "2.0" && !least.starts_with("1."))
+        asset["minVersion"].fail("at most 2.0, not " + least);
     readBuffers(document, std::move(binary));
     checkBufferViews(document);
     checkAccessors(document);

@@ -4,24 +4,20 @@
 #include <array>
 #include <string_view>
 
+#include <fmt/ranges.h>
+
 namespace clv {
 namespace {
 
-// Extensions that place or encode triangles: a scene without them would be another scene.
-constexpr std::array<std::string_view, 4> kUnreadableGeometry = {"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
-                                                                 "KHR_meshopt_compression", "KHR_mesh_quantization"};
 constexpr std::array<std::string_view, 2> kRead = {"KHR_lights_punctual", "KHR_draco_mesh_compression"};
 
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-}
+bool isRead(const std::string& extension) { return std::ranges::find(kRead, extension) != kRead.end(); }
 
 void noteExtensions(const JsonReader& root, SceneBuilder& builder) {
     for (const JsonReader& extension : root.elements("extensionsRequired"))
-        if (contains(kUnreadableGeometry, extension.text())) extension.fail("geometry without the extension " + extension.text());
+        if (!isRead(extension.text())) extension.fail(fmt::format("{}, not {}", fmt::join(kRead, " or "), extension.text()));
     for (const JsonReader& extension : root.elements("extensionsUsed"))
-        if (!contains(kRead, extension.text())) builder.ignore("extension " + extension.text());
+        if (!isRead(extension.text())) builder.ignore("extension " + extension.text());
 }
 
 void noteMaterials(const JsonReader& root, SceneBuilder& builder) {

@@ -1,7 +1,6 @@
 #include "bindings/scene/gltf_triangles.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <string_view>
 
@@ -35,19 +34,6 @@ void checkType(const JsonReader& accessor, const std::string& type, bool typeIsG
         accessor.fail(fmt::format("{} of {}", type, type == "SCALAR" ? "unsigned integers" : "32-bit floats"));
 }
 
-// Indices are packed: their buffer views have no stride.
-std::uint32_t largestIndex(const GltfDocument& document, const JsonReader& indices) {
-    const std::size_t bytes = indices["componentType"].index() == kUnsignedByte ? 1 : indices["componentType"].index() == kUnsignedShort ? 2 : 4;
-    const std::uint8_t* next = bufferViewBytes(document, indices["bufferView"].index()).begin + indices.index("byteOffset", 0);
-    std::uint32_t largest = 0;
-    for (std::size_t i = indices["count"].index(); i > 0; --i, next += bytes) {
-        std::uint32_t index = 0;
-        std::memcpy(&index, next, bytes);
-        largest = std::max(largest, index);
-    }
-    return largest;
-}
-
 void checkPrimitive(const GltfDocument& document, const JsonReader& primitive, const json& reduced, const std::vector<JsonReader>& accessors) {
     auto accessorOf = [&](const JsonReader& index) { return accessors[index.index(accessors.size())]; };
     const bool isCompressed = primitive.has("extensions") && primitive["extensions"].has(kDraco);
@@ -68,7 +54,8 @@ void checkPrimitive(const GltfDocument& document, const JsonReader& primitive, c
     if (isCompressed) return;
     if (!indices.has("bufferView")) indices.fail("a member 'bufferView'");
     const std::size_t vertices = positions["count"].index();
-    if (largestIndex(document, indices) >= vertices) primitive["indices"].fail(fmt::format("indices below {}, the number of vertices", vertices));
+    if (std::ranges::max(readIndices(document, indices, indices["count"].index())) >= vertices)
+        primitive["indices"].fail(fmt::format("indices below {}, the number of vertices", vertices));
 }
 
 // What assimp needs to know of a primitive: positions, indices and the one set of texture coordinates that its material reads.

@@ -1,4 +1,4 @@
-// Reads {"lights":[...]} files.
+// Reads {"lights":[...]} files; a member "range" plays no part.
 #include <array>
 #include <cmath>
 #include <set>
@@ -19,9 +19,9 @@ struct LightFormat {
 
 const LightFormat& formatOf(const JsonReader& type) {
     static const std::array<LightFormat, 3> formats = {{
-        {"point", {"position", "intensity"}, {"name", "direction"}},
-        {"spot", {"position", "direction", "intensity"}, {"name", "innerConeAngle", "outerConeAngle"}},
-        {"directional", {"direction", "intensity"}, {"name", "position"}},
+        {"point", {"position", "intensity"}, {"name", "direction", "range"}},
+        {"spot", {"position", "direction", "intensity"}, {"name", "innerConeAngle", "outerConeAngle", "range"}},
+        {"directional", {"direction", "intensity"}, {"name", "position", "range"}},
     }};
     for (const LightFormat& format : formats)
         if (format.type == type.text()) return format;

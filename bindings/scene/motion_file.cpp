@@ -88,7 +88,7 @@ CameraMotion readCamera(const std::string& file, const JsonReader& source, Motio
         if (key.has("target")) camera.target.keys.emplace_back(frame, positionOf(file, key["target"]));
         if (key.has("yfov")) {
             const double yfov = key["yfov"].number();
-            if (!(yfov > 0.0 && yfov < 3.14)) key["yfov"].fail("an angle in (0, 3.14)");
+            if (!(yfov >= 1e-6 && yfov < 3.14)) key["yfov"].fail("an angle of 1e-6 to 3.14 rad");
             camera.yfov.keys.emplace_back(frame, yfov);
         }
     }
@@ -105,7 +105,7 @@ Motion loadMotion(const std::string& file, const Scene& scene) {
     Motion motion;
     motion.file = file;
     motion.fps = root.number("fps", motion.fps);
-    if (!(motion.fps > 0.0 && motion.fps <= 1e6)) root["fps"].fail("a number above 0 and at most 1e6");
+    if (!(motion.fps >= 1e-6 && motion.fps <= 1e6)) root["fps"].fail("a number from 1e-6 to 1e6");
     std::set<std::size_t> seen;
     for (const JsonReader& light : root.elements("lights")) {
         motion.lights.push_back(readLight(file, light, scene, motion));

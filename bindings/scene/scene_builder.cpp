@@ -17,6 +17,8 @@ constexpr double kFarScene = 1000.0;     // m: beyond it floats round coordinate
 constexpr double kFarInExtents = 4.0;    // an anchor pays only when the centre lies several extents away,
 constexpr double kVeryFar = 1024.0;      // and at any distance when it lies as many away
 
+constexpr double kSliver = 1e-6;         // height over length of a triangle whose corners may as well lie on a line
+
 constexpr float kFineDetail = 0.01f;     // of a triangle's size: what may be lost of it without a word
 
 struct DoubleBounds {
@@ -28,6 +30,12 @@ glm::dvec3 chooseAnchor(const DoubleBounds& bounds) {
     double distance = glm::length(center), extent = glm::length(bounds.hi - bounds.lo);
     bool far = distance > kVeryFar * extent || (distance > kFarScene && distance > kFarInExtents * extent);
     return far ? glm::round(center) : glm::dvec3(0.0);
+}
+
+// Whether the triangle is one in double precision: its corners neither coincide nor lie on a line.
+bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - a, c - a), glm::dot(c - b, c - b)});
+    return glm::length(glm::cross(b - a, c - a)) > kSliver * longest;
 }
 
 }  // namespace
@@ -89,14 +97,18 @@ void SceneBuilder::checkVertices(const std::string& source) const {
         }
 }
 
-void SceneBuilder::dropZeroAreaTriangles() {
-    std::size_t kept = 0;
+void SceneBuilder::dropZeroAreaTriangles(const std::string& source) {
+    std::size_t kept = 0, lost = 0;
+    std::uint32_t firstLost = 0;  // node
     for (std::size_t t = 0; t < scene_.triangles.size(); ++t) {
         const glm::uvec3& corners = scene_.triangles[t];
         glm::vec3 a = scene_.positions[corners.x], b = scene_.positions[corners.y], c = scene_.positions[corners.z];
         glm::vec3 normal = glm::cross(b - a, c - a);
         // In float, as those who use the triangle compute it: a normal that underflows cannot be normalised.
-        if (glm::dot(normal, normal) < FLT_MIN) continue;
+        if (glm::dot(normal, normal) < FLT_MIN) {
+            if (hasArea(positionsWorld_[corners.x], positionsWorld_[corners.y], positionsWorld_[corners.z]) && lost++ == 0) firstLost = scene_.nodeOf[t];
+            continue;
+        }
         scene_.triangles[kept] = corners;
         scene_.materialOf[kept] = scene_.materialOf[t];
         scene_.nodeOf[kept] = scene_.nodeOf[t];
@@ -106,6 +118,7 @@ void SceneBuilder::dropZeroAreaTriangles() {
     scene_.triangles.resize(kept);
     scene_.materialOf.resize(kept);
     scene_.nodeOf.resize(kept);
+    if (lost > 0) warn(fmt::format("{}: {} of its triangles have no area in single precision and are left out, the first one of node '{}'", source, lost, scene_.nodeNames[firstLost]));
 }
 
 void SceneBuilder::warnOfLostDetail(const std::string& source) {
@@ -154,7 +167,7 @@ Scene SceneBuilder::finish(const std::string& source) && {
     }
     scene_.bounds = {glm::vec3(bounds.lo - scene_.anchor), glm::vec3(bounds.hi - scene_.anchor)};
 
-    dropZeroAreaTriangles();
+    dropZeroAreaTriangles(source);
     if (scene_.triangles.empty())
         throw InputError(fmt::format("{}: all {} triangles have zero area; expected at least one that has not", source,
                                      scene_.droppedTriangles));

@@ -42,7 +42,7 @@ public:
 
 private:
     void checkVertices(const std::string& source) const;
-    void dropZeroAreaTriangles();
+    void dropZeroAreaTriangles(const std::string& source);
     // Where rays start too far above small triangles, because others lie far away.
     void warnOfLostDetail(const std::string& source);
 

@@ -25,7 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         for (const NamedLight& named : scene.lights) require(clvIsFinite(named.light.position) && clvIsFinite(named.light.intensity), "a light is finite");
     } catch (const InputError& error) {
-        require(std::string(error.what()).starts_with(name), "an error names the file");
+        // A material library is named by itself; what other formats left beside the file may be one.
+        require(std::string(error.what()).starts_with(name.substr(0, name.rfind('.'))), "an error names the file");
     }
     return 0;
 }

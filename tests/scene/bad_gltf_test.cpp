@@ -1,4 +1,5 @@
 // Damaged glTF files: always one InputError, never a crash, never an empty scene.
+#include <array>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -35,12 +36,27 @@ json& camera(TestGltf& gltf) {
     return gltf.document["cameras"][0]["perspective"];
 }
 
+// Replaces two of the triangle's positions.
+void list(TestGltf& gltf, std::array<std::uint16_t, 2> indices) {
+    padBytes(gltf.binary, 4, 0);
+    const std::size_t begin = gltf.binary.size();
+    const float values[6] = {};
+    appendBytes(gltf.binary, indices.data(), sizeof indices);
+    appendBytes(gltf.binary, values, sizeof values);
+    gltf.document["buffers"][0]["byteLength"] = gltf.binary.size();
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin}, {"byteLength", 4}});
+    gltf.document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", begin + 4}, {"byteLength", 24}});
+    gltf.document["accessors"][0]["sparse"] = {{"count", 2}, {"indices", {{"bufferView", 3}, {"componentType", 5123}}}, {"values", {{"bufferView", 4}}}};
+}
+
 json& primitive(TestGltf& gltf) { return gltf.document["meshes"][0]["primitives"][0]; }
 json& pbr(TestGltf& gltf) { return gltf.document["materials"][0]["pbrMetallicRoughness"]; }
 
 const Damage kDamages[] = {
     {"noVersion", [](TestGltf& g) { g.document["asset"].erase("version"); }, "asset: expected a member 'version'"},
     {"versionOne", [](TestGltf& g) { g.document["asset"]["version"] = "1.0"; }, "asset.version"},
+    {"versionThreeNeeded", [](TestGltf& g) { g.document["asset"]["minVersion"] = "3.0"; }, "asset.minVersion: expected at most 2.0, not 3.0"},
+    {"versionNewerNeeded", [](TestGltf& g) { g.document["asset"].update({{"version", "2.1"}, {"minVersion", "2.1"}}); }, "asset.minVersion: expected at most 2.0"},
     {"documentIsAnArray", [](TestGltf& g) { g.document = json::array(); }, "expected an object"},
     {"bufferTooLong", [](TestGltf& g) { g.document["buffers"][0]["byteLength"] = 67000; }, "buffers[0]: expected 67000 bytes"},
     {"bufferFileMissing", [](TestGltf& g) { g.document["buffers"][0]["uri"] = "gone.bin"; }, "gone.bin"},
@@ -51,6 +67,13 @@ const Damage kDamages[] = {
     {"viewOffsetNegative", [](TestGltf& g) { g.document["bufferViews"][1]["byteOffset"] = -4; }, "bufferViews[1].byteOffset"},
     {"viewOfNoBuffer", [](TestGltf& g) { g.document["bufferViews"][0]["buffer"] = 1; }, "bufferViews[0].buffer"},
     {"strideZero", [](TestGltf& g) { g.document["bufferViews"][0]["byteStride"] = 0; }, "bufferViews[0].byteStride"},
+    {"strideBelowTheElement", [](TestGltf& g) { g.document["bufferViews"][0]["byteStride"] = 8; }, "bufferViews[0].byteStride: expected at least 12 bytes, those of an element of accessors[0]"},
+    {"strideOfIndices", [](TestGltf& g) { g.document["bufferViews"][2].update({{"byteLength", 10}, {"byteStride", 4}}), g.binary.resize(g.binary.size() + 4), g.document["buffers"][0]["byteLength"] = g.binary.size(); },
+     "accessors[2]: expected indices without a stride"},
+    {"listedTwice", [](TestGltf& g) { list(g, {1, 1}); }, "accessors[0].sparse.indices: expected indices that rise, below 3, not 1 after 1"},
+    {"listedBackwards", [](TestGltf& g) { list(g, {2, 0}); }, "accessors[0].sparse.indices: expected indices that rise, below 3, not 0 after 2"},
+    {"listedBeyondTheElements", [](TestGltf& g) { list(g, {0, 3}); }, "accessors[0].sparse.indices: expected indices that rise, below 3, not 3 after 0"},
+    {"listedByFloats", [](TestGltf& g) { list(g, {0, 1}), g.document["accessors"][0]["sparse"]["indices"]["componentType"] = 5122; }, "accessors[0].sparse.indices.componentType: expected 5121, 5123 or 5125"},
     {"accessorBeyondView", [](TestGltf& g) { g.document["accessors"][0]["count"] = 4; }, "accessors[0]"},
     {"accessorCountZero", [](TestGltf& g) { g.document["accessors"][2]["count"] = 0; }, "accessors[2].count"},
     {"accessorOfNoView", [](TestGltf& g) { g.document["accessors"][0]["bufferView"] = 3; }, "accessors[0].bufferView"},
@@ -77,6 +100,11 @@ const Damage kDamages[] = {
     {"allDegenerate", [](TestGltf& g) { g.document["nodes"][0]["scale"] = {0, 1, 1}; }, "zero area"},
     {"nodeIsItsOwnParent", [](TestGltf& g) { g.document["nodes"][0]["children"] = {0}; }, "nodes[0]: expected at most"},
     {"nodeHasTwoParents", [](TestGltf& g) { g.document["nodes"] = {{{"children", {1, 1}}}, {{"mesh", 0}}}; }, "nodes[0].children[1]"},
+    {"nodeIsARootTwice", [](TestGltf& g) { g.document["scenes"][0]["nodes"] = {0, 0}; }, "scenes[0].nodes[1]: expected a node that is not listed before; node 0 is"},
+    {"nodeIsARootAndAChild", [](TestGltf& g) {
+         g.document["nodes"].push_back({{"children", {0}}});
+         g.document["scenes"][0]["nodes"] = {1, 0};
+     }, "scenes[0].nodes[1]: expected a node without a parent; node 0 has one"},
     {"childMissing", [](TestGltf& g) { g.document["nodes"][0]["children"] = {5}; }, "nodes[0].children[0]"},
     {"matrixTooShort", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 2, 3}; }, "nodes[0].matrix: expected 16 numbers"},
     {"matrixProjects", [](TestGltf& g) { g.document["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, "nodes[0].matrix: expected a last row of 0, 0, 0, 1"},
@@ -93,6 +121,8 @@ const Damage kDamages[] = {
          pbr(g)["baseColorTexture"] = {{"index", 0}};
      }, "images[0]"},
     {"requiredCompression", [](TestGltf& g) { g.document["extensionsRequired"] = {"EXT_meshopt_compression"}; }, "EXT_meshopt_compression"},
+    {"requiredUnknown", [](TestGltf& g) { g.document["extensionsRequired"] = {"KHR_lights_punctual", "ACME_shine"}; },
+     "extensionsRequired[1]: expected KHR_lights_punctual or KHR_draco_mesh_compression, not ACME_shine"},
     {"dracoDamaged", [](TestGltf& g) {
          primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"TEXCOORD_0", 1}}}};
      }, "meshes"},
@@ -196,6 +226,11 @@ TEST_F(BadGltf, aValueOfAnotherKindNeverCrashes) {
             }
         }
     EXPECT_GT(errors, tried / 2);
+}
+
+TEST_F(BadGltf, aKeyTwiceIsNamed) {
+    const std::string text = R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}, {"name": "b", "mesh": 0, "name": "c"}]})";
+    EXPECT_EQ(errorOf(write("twice.gltf", text)), file("twice.gltf") + ": expected 'name' once in its object");
 }
 
 TEST_F(BadGltf, aMissingFileIsNamed) { EXPECT_EQ(errorOf(file("nowhere.glb")), file("nowhere.glb") + ": no such file"); }

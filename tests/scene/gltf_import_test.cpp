@@ -297,7 +297,8 @@ TEST_F(GltfImport, saysWhatItIgnores) {
     gltf.document["animations"] = {json::object()};
     gltf.document["skins"] = {json::object()};
     gltf.document["extensionsUsed"] = {"KHR_materials_transmission", "KHR_lights_punctual", "ACME_shine"};
-    gltf.document["extensionsRequired"] = {"ACME_shine"};
+    gltf.document["extensionsRequired"] = {"KHR_lights_punctual"};
+    gltf.document["asset"]["minVersion"] = "2.0";
     gltf.document["materials"][0].update({{"emissiveFactor", {1, 0, 0}}, {"alphaMode", "BLEND"}, {"normalTexture", {{"index", 0}}}});
     gltf.document["meshes"][0]["primitives"][0]["targets"] = {json::object()};
     const std::vector<std::string> expected = {"extension KHR_materials_transmission", "extension ACME_shine", "animations", "skins", "normal maps",

@@ -45,6 +45,15 @@ TEST_F(LightsFile, aSpotWithoutAnglesHasThoseOfGltf) {
     EXPECT_FLOAT_EQ(light.outerConeAngle, glm::quarter_pi<float>());
 }
 
+TEST_F(LightsFile, rangesPlayNoPart) {
+    const std::string text = R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,2,3], "range": 5},
+        {"type": "spot", "position": [0,0,0], "direction": [0,-1,0], "intensity": [1,1,1], "range": 0.1},
+        {"type": "directional", "direction": [0,-1,0], "intensity": [1,1,1], "range": 1}]})";
+    const std::vector<NamedLight> lights = loadLights(write("lights.json", text), glm::dvec3(0.0));
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_EQ(lights[0].light.intensity, glm::vec3(1, 2, 3));
+}
+
 TEST_F(LightsFile, anEmptyListIsNoLight) { EXPECT_TRUE(loadLights(write("l.json", R"({"lights": []})"), glm::dvec3(0.0)).empty()); }
 
 TEST_F(LightsFile, everyMistakeIsNamedWithItsPlace) {
@@ -54,6 +63,8 @@ TEST_F(LightsFile, everyMistakeIsNamedWithItsPlace) {
         {R"([])", "an object"},
         {R"({})", "'lights'"},
         {R"({"lights": {}})", "lights: expected an array"},
+        {R"({"lights": [], "lights": []})", "expected 'lights' once in its object"},
+        {R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": [1,1,1], "position": [1,1,1]}]})", "expected 'position' once in its object"},
         {R"({"lights": [], "sky": 1})", "'sky'"},
         {R"({"lights": [{}]})", "lights[0]: expected a member 'type'"},
         {R"({"lights": [{"type": "area"}]})", "lights[0].type"},

@@ -70,7 +70,8 @@ TEST_F(MotionFile, everyMistakeIsNamedWithItsPlace) {
         {R"({})", "lights or a camera that move"},
         {R"({"sky": 1})", "'sky'"},
         {R"({"objects": []})", "objects: expected no objects"},
-        {R"({"fps": 0, "lights": []})", "fps: expected a number above 0"},
+        {R"({"fps": 0, "lights": []})", "fps: expected a number from 1e-6 to 1e6"},
+        {R"({"fps": 1e-300, "lights": []})", "fps: expected a number from 1e-6 to 1e6"},
         {R"({"lights": [{"name": "sun", "keys": []}]})", "lights[0].name: expected one of the scene's lights: lamp"},
         {R"({"lights": [{"name": "lamp"}]})", "lights[0]: expected a member 'keys'"},
         {R"({"lights": [{"name": "lamp", "keys": []}]})", "lights[0].keys: expected at least one key"},
@@ -86,7 +87,9 @@ TEST_F(MotionFile, everyMistakeIsNamedWithItsPlace) {
         {R"({"lights": [{"name": "lamp", "keys": [{"frame": 0, "colour": 1}]}]})", "'colour'"},
         {R"({"lights": [{"name": "lamp", "keys": [{"frame": 0}]}, {"name": "lamp", "keys": [{"frame": 0}]}]})", "lights[1].name"},
         {R"({"camera": {"keys": [{"frame": 0, "yfov": 4}]}})", "camera.keys[0].yfov: expected an angle"},
+        {R"({"camera": {"keys": [{"frame": 0, "yfov": 1e-300}]}})", "camera.keys[0].yfov: expected an angle"},
         {R"({"camera": {"keys": [{"frame": 0, "roll": 4}]}})", "'roll'"},
+        {R"({"camera": {"keys": [{"frame": 0, "yfov": 1, "frame": 1}]}})", "expected 'frame' once in its object"},
     };
     for (const auto& [text, expected] : mistakes) {
         const std::string error = errorOf(text);

@@ -1,3 +1,7 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
 #include "bindings/scene/texture_codec.h"
@@ -17,6 +21,28 @@ TEST_F(ObjImport, splitsAQuadIntoTrianglesThatFaceTheSameWay) {
     EXPECT_EQ(scene.name, "square");
     EXPECT_TRUE(scene.lights.empty());
     EXPECT_EQ(scene.albedo(0, 0.2f, 0.2f), Material().albedo);
+}
+
+TEST_F(ObjImport, readsCornersWithIndicesLeftOut) {
+    EXPECT_EQ(loadScene(write("square.obj", kSquare + "vn 0 0 1\nf 1/ 2// 3//1\nfo 1//-1 3 4\n")).triangles.size(), 2u);
+}
+
+TEST_F(ObjImport, readsFacesOfThousandsOfCorners) {
+    constexpr int kCorners = 3000;
+    std::string text, face = "f";
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = glm::two_pi<double>() * i / kCorners;
+        text += fmt::format("v {} {} 0\n", std::cos(angle), std::sin(angle)), face += fmt::format(" {}", i + 1);
+    }
+    const Scene scene = loadScene(write("disc.obj", text + face + "\n"));
+    glm::dvec3 area(0.0);
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) area += areaVector(scene, t);
+    EXPECT_NEAR(area.z, glm::pi<double>(), 1e-4);
+}
+
+TEST_F(ObjImport, saysWhatItIgnores) {
+    const Scene scene = loadScene(write("square.obj", kSquare + "f 1 2 3\nl 1 2\np 1\ncurv 0 1 1 2\ns off\n"));
+    EXPECT_EQ(scene.ignored, (std::vector<std::string>{"points and lines", "free-form curves and surfaces"}));
 }
 
 TEST_F(ObjImport, countsNegativeIndicesBackwards) {
@@ -85,11 +111,58 @@ TEST_F(ObjMaterial, aTriangleFarFromSmallOnesIsWarnedOf) {
                                                             "is not computed right; leave out what lies far away"});
 }
 
+TEST_F(ObjMaterial, triangleTooSmallForFloatsIsWarnedOf) {
+    const std::string square = "mtllib half.mtl\n" + kSquare + "v 2 0 0\nv 1e-12 0 0\nv 0 1e-12 0\nusemtl half\nf 1 2 3\nf 1 3 4\n";
+    write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
+    EXPECT_TRUE(loadScene(write("square.obj", square + "f 1 1 2\nf 1 2 5\n")).warnings.empty()) << "they have none in double precision, either";
+    const Scene scene = loadScene(write("square.obj", square + "f 1 2 5\no speck\nf 1 6 7\n"));
+    EXPECT_EQ(scene.droppedTriangles, 2u);
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("square.obj") + ": 1 of its triangles have no area in single precision and are left out, the first one of node 'speck'"});
+}
+
 TEST_F(ObjMaterial, thatNoLibraryHasIsAWarningWithItsLine) {
     write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\n");
     const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "usemtl nope\nf 1 2 3\nusemtl half\nf 1 3 4\nusemtl nope\nf 1 2 4\n"));
-    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("square.obj") + ":6: no library has the material 'nope': its faces have an albedo of 0.6"});
-    EXPECT_EQ(scene.albedo(0, 0.3f, 0.3f), glm::vec3(0.6f));
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("square.obj") + ":6: no library has the material 'nope': its faces have an albedo of 0.8"});
+    EXPECT_EQ(scene.albedo(0, 0.3f, 0.3f), glm::vec3(0.8f));
+}
+
+TEST_F(ObjMaterial, mayHaveAnyName) {
+    for (const std::string name : {"DefaultMaterial", "default", "0", "-1", "a b # c", "\xc3\xa4"})
+        EXPECT_EQ(albedoOf("mtllib half.mtl\n" + kSquare + "usemtl " + name + "\nf 1 2 3\n", "newmtl " + name + "\nKd 0.5 0.5 0.5\nnewmtl last\nKd 0 0 0\n"), half_) << name;
+}
+
+TEST_F(ObjMaterial, holdsFromItsLineOnWhateverElseLiesBetween) {
+    write("half.mtl", "newmtl half\nKd 0.5 0.5 0.5\nnewmtl dark\nKd 0.1 0.1 0.1\n");
+    write("more.mtl", "newmtl more\nKd 0.3 0.3 0.3\n");
+    const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "f 1 2 3\nusemtl half\nf 1 2 3\no box\nf 1 2 3\nmtllib more.mtl\nf 1 2 3\n"
+                                        "g side\nusemtl later\nusemtl dark\nf 1 2 3\nusemtl more\nf 1 2 3\n"));
+    std::vector<float> albedos;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) albedos.push_back(scene.albedo(t, 0.3f, 0.3f).x);
+    EXPECT_EQ(albedos, (std::vector<float>{0.8f, 0.5f, 0.5f, 0.5f, 0.1f, 0.3f}));
+    EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"defaultobject", "box", "side"}));
+}
+
+TEST_F(ObjMaterial, thatIsNotSaidIsAWarningWithItsLine) {
+    write("half.mtl", "newmtl half\nNs 10\n\nnewmtl unused\n");
+    const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\n" + kSquare + "f 1 2 3\nf 1 3 4\nusemtl half\nf 1 2 3\n"));
+    EXPECT_EQ(scene.warnings, (std::vector<std::string>{file("square.obj") + ":6: no usemtl above: faces without a material have an albedo of 0.8",
+                                                        file("half.mtl") + ":1: no Kd or map_Kd: the material 'half' has an albedo of 0.8"}));
+    for (std::uint32_t t = 0; t < 3; ++t) EXPECT_EQ(scene.albedo(t, 0.3f, 0.3f), glm::vec3(0.8f));
+}
+
+TEST_F(ObjMaterial, thatIsDefinedAgainIsAWarningWithItsLine) {
+    write("half.mtl", "newmtl half\nKd 0.1 0.1 0.1\nnewmtl half\nKd 0.5 0.5 0.5\n");
+    const Scene scene = loadScene(write("square.obj", "mtllib half.mtl\nmtllib half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n"));
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{file("half.mtl") + ":3: the material 'half' is defined above, too: what is said last counts"});
+    EXPECT_EQ(scene.albedo(0, 0.3f, 0.3f), half_);
+}
+
+TEST_F(ObjMaterial, withAPictureAloneHasThePicturesAlbedo) {
+    const std::vector<std::uint8_t> png = encodePng({"", 1, 1, {{0.5f, 0.5f, 0.5f}}});
+    write("my map.png", std::string(png.begin(), png.end()));
+    const glm::vec3 albedo = albedoOf("mtllib half.mtl\n" + kSquare + "vt 0 0\nusemtl half\nf 1/1 2/-1 3/1\n", "newmtl half\nmap_Kd my map.png\n");
+    EXPECT_LT(glm::distance(albedo, half_), 3e-3f);
 }
 
 struct Damage {
@@ -103,6 +176,9 @@ class DamagedObj : public GltfFiles, public ::testing::WithParamInterface<Damage
 TEST_P(DamagedObj, isOneLineThatNamesFileAndPlace) {
     write("bright.mtl", "newmtl bright\nKd 0.5 2 0.5\n");
     write("grey.mtl", "newmtl grey\nKd 0.5\n");
+    write("early.mtl", "# first\nKd 0.5 0.5 0.5\nnewmtl early\n");
+    write("nameless.mtl", "newmtl\nKd 0.5 0.5 0.5\n");
+    write("moved.mtl", "newmtl moved\nmap_Kd -o 0.5 0 0 map.png\n");
     write("tiles.mtl", "newmtl tiles\nmap_Kd gone.png\n");
     const std::string error = errorOf(write("damaged.obj", GetParam().text));
     EXPECT_EQ(error.rfind(file(""), 0), 0u) << error;
@@ -134,7 +210,21 @@ const Damage kDamages[] = {
     {"faceOfTwoCorners", kSquare + "f 1 2\n", ":5: expected a face"},
     {"allDegenerate", kSquare + "f 1 1 2\n", "zero area"},
     {"libraryMissing", "mtllib gone.mtl\n" + kSquare + "f 1 2 3\n", ":1: expected a material library 'gone.mtl'"},
-    {"albedoAboveOne", "mtllib bright.mtl\n" + kSquare + "usemtl bright\nf 1 2 3\n", "'bright'"},
+    {"albedoAboveOne", "mtllib bright.mtl\n" + kSquare + "usemtl bright\nf 1 2 3\n", "bright.mtl:2: expected an albedo of 3 numbers from 0 to 1, not 2"},
+    {"albedoOfNoMaterial", "mtllib early.mtl\n" + kSquare + "f 1 2 3\n", "early.mtl:2: expected a newmtl above"},
+    {"materialWithoutAName", "mtllib nameless.mtl\n" + kSquare + "f 1 2 3\n", "nameless.mtl:1: expected the name of a material"},
+    {"useOfNoName", kSquare + "usemtl \nf 1 2 3\n", ":5: expected the name of a material"},
+    {"libraryWithoutAName", "mtllib\n" + kSquare + "f 1 2 3\n", ":1: expected a material library"},
+    {"pictureWithOptions", "mtllib moved.mtl\n" + kSquare + "usemtl moved\nf 1 2 3\n", "moved.mtl:2: expected the name of a picture without options, not '-o"},
+    {"textureCoordinateMissing", kSquare + "vt 0 0\nvt 1 0\nf 1/1 2/2 3/3\n", ":7: expected corners among the 2 texture coordinates above, not '3/3'"},
+    {"textureCoordinateBeforeTheFirst", kSquare + "vt 0 0\nvt 1 0\nf 1/1 2/2 3/-3\n", ":7: expected corners among the 2 texture coordinates above, not '3/-3'"},
+    {"textureCoordinateZero", kSquare + "vt 0 0\nf 1/1 2/1 3/0\n", ":6: expected corners among"},
+    {"textureCoordinatesAtSomeCorners", kSquare + "vt 0 0\nf 1/1 2 3/1\n", ":6: expected texture coordinates at all corners, or at none"},
+    {"normalMissing", kSquare + "vn 0 0 1\nf 1//1 2//1 3//2\n", ":6: expected corners among the 1 normals above, not '3//2'"},
+    {"cornerWithTextAfterIt", kSquare + "f 1/x 2 3\n", ":5: expected corners"},
+    {"cornerOfFourIndices", kSquare + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", ":7: expected corners such as"},
+    {"outlineOfNoVertex", kSquare + "fo 1 2 99\n", ":5: expected corners among the 4 vertices"},
+
     {"textureMissing", "mtllib tiles.mtl\n" + kSquare + "usemtl tiles\nf 1 2 3\n", "gone.png"},
 };
 
