@@ -110,7 +110,7 @@ std::vector<StressFigure> twoRooms(const StressSettings& settings) {
         for (double one : off[k]) squares += (one - mean) * (one - mean) / (kRuns - 1);
         const double error = std::sqrt(squares / kRuns), albedo = rooms[k].albedo.x;
         figures.push_back({fmt::format("bias of the room of {:g}, %", albedo), std::abs(mean)});
-        figures.push_back({fmt::format("bias of the room of {:g} beyond three standard errors, %", albedo), std::max(0.0, std::abs(mean) - 3.0 * error), 3.0});
+        figures.push_back({fmt::format("bias of the room of {:g} beyond three standard errors, %", albedo), largerOf(0.0, std::abs(mean) - 3.0 * error), 3.0});
         figures.push_back({fmt::format("noise of a run in the room of {:g}, %", albedo), std::sqrt(squares), 5.0});
     }
     return figures;

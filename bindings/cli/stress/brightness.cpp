@@ -6,8 +6,6 @@
 namespace clv {
 namespace {
 
-constexpr double kAlbedo = 0.5;
-
 // A closed room of 2 m and the mean irradiance on its walls after one bounce.
 struct LitRoom {
     double mean = 0.0;  // W/m^2

@@ -8,8 +8,6 @@
 namespace clv {
 namespace {
 
-constexpr double kAlbedo = 0.5;
-
 // On the triangles, on both sides.
 std::vector<ReferencePoint> pointsOn(const Scene& scene) {
     std::vector<ReferencePoint> points;
@@ -112,16 +110,16 @@ void compareWithPaths(const Place& place, const Scene& scene, const LightOptions
         const Side side = sideOf(embree, points[k]);
         if (side == (place.litInside ? Side::kSolid : Side::kOpen)) {
             ++compared, mean += e, expected += exact, variance += error * error;
-            brightest = std::max(brightest, exact), worst = std::max(worst, std::abs(e - exact) - 3.0 * error);
+            brightest = std::max(brightest, exact), worst = largerOf(worst, std::abs(e - exact) - 3.0 * error);
         } else if (side != Side::kBoth) {
             ++solids, inSolids += e;
         }
     }
     figures.push_back({"points" + of, compared});
     if (place.truth == Truth::kDark) {
-        figures.push_back({"light where there is none, W/m^2" + of, std::max(mean, expected), 0.0});
+        figures.push_back({"light where there is none, W/m^2" + of, largerOf(mean, expected), 0.0});
     } else {
-        figures.push_back({"mean off that of path tracing, %" + of, std::max(0.0, percentOff(mean, expected) - 300.0 * std::sqrt(variance) / expected), 4.0});
+        figures.push_back({"mean off that of path tracing, %" + of, largerOf(0.0, percentOff(mean, expected) - 300.0 * std::sqrt(variance) / expected), 4.0});
         figures.push_back({"a point off it, % of the brightest" + of, 100.0 * worst / brightest, 25.0});
     }
     if (solids > 0.0) figures.push_back({"mean on the other side, W/m^2" + of, inSolids / solids});
@@ -160,7 +158,7 @@ std::vector<StressFigure> insideOut(const StressSettings& settings) {
         const std::vector<ReferencePoint> points = pointsOnWalls();
         const double expected = meanOf(wholeRun(good, points, options, settings).irradiance);
         const WholeRun run = wholeRun(bad, points, options, settings);
-        figures.push_back({all ? "all bounces, off by" : "one bounce, off by", std::abs(meanOf(run.irradiance) / expected - 1.0), 0.02});
+        figures.push_back({all ? "all bounces, off by" : "one bounce, off by", std::abs(meanOf(run.irradiance) / expected - 1.0), 0.005});
         figures.push_back({"not a word of it", run.report.warnings.empty() ? 1.0 : 0.0, 0.0});
     }
     return figures;

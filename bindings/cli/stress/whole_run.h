@@ -52,6 +52,8 @@ inline std::vector<ReferencePoint> pointsOnWalls(double half = 1.0, const glm::d
     return points;
 }
 
+inline constexpr double kAlbedo = 0.5;  // of grey surfaces
+
 // W a channel, of a point lamp of 1 W/sr.
 inline constexpr double kLampPower = 4.0 * 3.14159265358979;
 
