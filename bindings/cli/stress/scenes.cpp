@@ -154,7 +154,7 @@ std::vector<StressFigure> insideOut(const StressSettings& settings) {
     const Scene good = room(false), bad = room(true);
     std::vector<StressFigure> figures;
     for (bool all : {false, true}) {
-        const LightOptions options = smallRun(256 << 10, all);
+        const LightOptions options = smallRun(64 << 10, all);
         const std::vector<ReferencePoint> points = pointsOnWalls();
         const double expected = meanOf(wholeRun(good, points, options, settings).irradiance);
         const WholeRun run = wholeRun(bad, points, options, settings);
