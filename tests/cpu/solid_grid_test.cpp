@@ -31,7 +31,7 @@ std::vector<ClvRay> raysThrough() {
     return rays;
 }
 
-std::vector<ClvReceiver> receivers() {
+std::vector<ClvReceiver> receiversInSolid() {
     std::vector<ClvReceiver> all;
     for (int k = 0; k < 27; ++k) all.push_back({0.45f * vec3(float(k % 3 - 1), float(k / 3 % 3 - 1), float(k / 9 - 1)), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f});
     return all;
@@ -49,7 +49,7 @@ TEST(SolidGrid, holdsNoSlotsAndStillLightPassesOverIt) {
         }
         volume.merge(double(rays.size()), 1.0f / float(rays.size()), serialFor());
         EXPECT_EQ(volume.history(0).size(), 0u);
-        for (const ClvReceiver& receiver : receivers()) {
+        for (const ClvReceiver& receiver : receiversInSolid()) {
             SlotWeights weights;
             lookupWeights(volume.level(), receiver, {}, weights);
             EXPECT_EQ(readIrradiance(layout, volume.history(0), weights, layout.read(receiver.normal)), vec3(0.0f));
@@ -69,14 +69,14 @@ TEST(SolidGrid, isPassedOverByMovingLightAndOpensAgainOutside) {
     goTo(0);
     frame();
     EXPECT_EQ(volume.level().slots.size(), 0u);
-    for (const ClvReceiver& receiver : receivers()) EXPECT_EQ(volume.irradiance(receiver, {}), vec3(0.0f));
+    for (const ClvReceiver& receiver : receiversInSolid()) EXPECT_EQ(volume.irradiance(receiver, {}), vec3(0.0f));
     goTo(-10);  // half outside
     frame();
     EXPECT_GT(volume.level().slots.size(), 0u);
     EXPECT_GT(volume.irradiance({vec3(-2.0f, 0.0f, 0.0f), 0.0f, vec3(-1.0f, 0.0f, 0.0f), 0.0f}, {}).x, 0.0f);
     goTo(0);
     frame();
-    for (const ClvReceiver& receiver : receivers()) EXPECT_EQ(volume.irradiance(receiver, {}), vec3(0.0f));
+    for (const ClvReceiver& receiver : receiversInSolid()) EXPECT_EQ(volume.irradiance(receiver, {}), vec3(0.0f));
 }
 
 }  // namespace
