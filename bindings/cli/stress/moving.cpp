@@ -82,7 +82,7 @@ std::vector<StressFigure> farJumps(const StressSettings& settings) {
     stayed.moveTo(here);
     for (int frame = 0; frame < 64; ++frame) hall.frame(stayed, 1.0f / 60.0f);
     const double usual = meanLight(stayed, hall.scene);
-    double bad = 0.0, ghosts = 0.0, off = 0.0;
+    double bad = 0.0, ghosts = 0.0, away = 0.0, off = 0.0;
     float brightness = 1.0f;
     for (double cells : {0.0, 1e6, 0.0, -1e6, 0.0, 4e6, 0.0, 17.0, 0.0}) {
         CameraView view;
@@ -94,6 +94,7 @@ std::vector<StressFigure> farJumps(const StressSettings& settings) {
         const double light = meanLight(moved, hall.scene);
         if (std::abs(cells) > 100.0) {
             for (const MovingVolume& volume : moved.volumes()) {
+                away += double(volume.history().size());
                 for (float value : volume.history()) ghosts += value != 0.0f;
             }
         } else if (cells == 0.0) {
@@ -106,6 +107,7 @@ std::vector<StressFigure> farJumps(const StressSettings& settings) {
     for (int frame = 0; frame < 64; ++frame) hall.frame(moved, 1.0f / 60.0f);
     bad += notFinite(moved);
     return {{"values that are not finite, dynamicities outside of [0, 1]", bad, 0.0},
+            {"deposits looked at where there is no scene", away},
             {"deposits that are not 0 where there is no scene", ghosts, 0.0},
             {"light of one frame at home after 1e3 s, off by at most", off, 0.5},
             {"light after the way back, off by", std::abs(meanLight(moved, hall.scene) / usual - 1.0), 0.05}};
