@@ -201,7 +201,12 @@ std::vector<StressFigure> symmetryOfCutCells(const StressSettings& settings) {
         mean = largerOf(mean, std::abs(after / before - 1.0));
         rms = largerOf(rms, std::sqrt(squares * double(expected.size())) / before);
     }
-    return {{"receivers in the open", double(receivers.size())}, {"slots", double(light.level.slots.size())}, {"maps with another number of slots", slots, 0.0}, {"difference of the mean irradiance, %", 100.0 * mean, 0.5}, {"difference, root mean square, % of the mean", 100.0 * rms, 4.0}, {"difference at a receiver, % of the largest irradiance", 100.0 * worst, 25.0}};
+    return {{"receivers in the open", double(receivers.size())},
+            {"slots", double(light.level.slots.size())},
+            {"maps with another number of slots", slots, 0.0},
+            {"difference of the mean irradiance, %", 100.0 * mean, 0.5},
+            {"difference, root mean square, % of the mean", 100.0 * rms, 4.0},
+            {"difference at a receiver, % of the largest irradiance", 100.0 * worst, 25.0}};
 }
 
 // Moved by whole cells, with its storage scrolled: the same light, to the bit.

@@ -169,7 +169,8 @@ std::vector<StressFigure> insideOut(const StressSettings& settings) {
 std::vector<StressCase> sceneCases() {
     std::vector<StressCase> cases = {{"scene", "a room inside out", "its light is that of the room the right way round, and that is said", insideOut}};
     for (const Place& place : places()) {
-        cases.push_back({"scene", place.name, place.truth == Truth::kDark ? "no light is where there can be none" : "the light is that of the closed form, or of path tracing", [place](const StressSettings& s) { return runPlace(place, s); }});
+        const char* claim = place.truth == Truth::kDark ? "no light is where there can be none" : "the light is that of the closed form, or of path tracing";
+        cases.push_back({"scene", place.name, claim, [place](const StressSettings& s) { return runPlace(place, s); }});
     }
     return cases;
 }
