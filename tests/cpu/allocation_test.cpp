@@ -72,43 +72,116 @@ TEST(StillLightingMemory, takesNothingAfterTheFirstFrame) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(frame(), 0u) << k;
 }
 
-// Runs `work` with ever more memory until there is enough, from none at all. Returns how often there was not.
+// Runs `work` with memory for so many allocations. Returns whether it was too little.
+template <class Work>
+bool failsAt(std::size_t allocations, Work&& work) {
+    firstFailure = allocationCount() + allocations + 1;
+    bool failed = false;
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        failed = true;
+    }
+    firstFailure = std::numeric_limits<std::size_t>::max();
+    return failed;
+}
+
+// The same with ever more memory until there is enough, from none at all. Returns how often there was not.
 template <class Work>
 std::size_t runOutOfMemory(Work&& work) {
     for (std::size_t failures = 0;; ++failures) {
-        firstFailure = allocationCount() + failures + 1;
-        bool enough = true;
-        try {
-            work();
-        } catch (const std::bad_alloc&) {
-            enough = false;
-        }
-        firstFailure = std::numeric_limits<std::size_t>::max();
-        if (enough) return failures;
+        if (!failsAt(failures, work)) return failures;
     }
 }
+
+MovingLightingSettings smallCascades() {
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(4), settings.cascades.marginCells = 0, settings.cascades.finestCellSize = 3.0, settings.linesPerCell = 1;
+    settings.movingLights = true, settings.chunks = 2;
+    return settings;
+}
+
+// Frames of a moving light that can be broken off; `drawn` counts those whose rays were drawn, for the next frame's are others.
+struct BrokenFrames {
+    const LitHall& hall;
+    MovingLighting lighting;
+    int drawn = 0;
+
+    BrokenFrames(const LitHall& lit, const MovingLightingSettings& settings) : hall(lit), lighting(settings, lit.scene.probe(), lit.tracer(), serialFor()) {}
+    void frame(double x) {
+        lighting.moveTo(viewFrom(x, 0.0, 0.0));
+        lighting.rays(hall.sampler, 200);
+        ++drawn;
+        lighting.trace();
+        lighting.inject();
+        lighting.merge(1.0f / 60.0f);
+    }
+    std::vector<vec3> light() const { return irradianceAt(lighting, floorAround(vec3(2.0f, 0.0f, 0.0f), 4.0f)); }
+};
 
 // Whether it leaks is for the address sanitizer to say.
 TEST(OutOfMemory, isSaidWhereverItHappensInAFrameAndTheNextFrameIsRight) {
     const LitHall hall;
-    MovingLightingSettings settings = twoCascades();
-    settings.cascades.resolution = ivec3(4), settings.cascades.marginCells = 0, settings.cascades.finestCellSize = 3.0, settings.linesPerCell = 1;
-    settings.movingLights = true, settings.chunks = 2;
-    const ClvReceiver receiver{vec3(0.5f, -3.02f, 0.5f), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f};
-    vec3 irradiance(0.0f);
-    const auto frames = [&] {
-        MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
-        for (double x : {0.0, 2.0}) {
-            lighting.moveTo(viewFrom(x, 0.0, 0.0));
-            hall.frame(lighting, 200);
-        }
-        irradiance = lighting.irradiance(receiver);
+    const MovingLightingSettings settings = smallCascades();
+    // What an object gives that nothing ever happened to, after as many frames were drawn.
+    std::vector<std::vector<vec3>> expected;
+    for (int drawn = 0; drawn <= 2; ++drawn) {
+        BrokenFrames fresh(hall, settings);
+        for (int k = 0; k < drawn; ++k) fresh.lighting.rays(hall.sampler, 200);
+        fresh.frame(2.0);
+        expected.push_back(fresh.light());
+        EXPECT_GT(meanOf(expected.back()).x, 0.0f);
+    }
+    EXPECT_NE(expected[0], expected[1]);
+    std::size_t failures = 0;
+    for (bool enough = false; !enough; failures += !enough) {
+        BrokenFrames broken(hall, settings);
+        enough = !failsAt(failures, [&] {
+            for (double x : {0.0, 2.0}) broken.frame(x);
+        });
+        broken.lighting.reset();
+        const int drawn = broken.drawn;
+        broken.frame(2.0);
+        ASSERT_EQ(broken.light(), expected[std::size_t(drawn)]) << "memory for " << failures << " allocations, " << drawn << " frames drawn";
+    }
+    EXPECT_GT(failures, 100u);
+}
+
+// Levels are made ahead, as they are in use; what a frame takes are its rays.
+TEST(OutOfMemory, isSaidInAFrameOfStillLightAndTheNextFrameIsRight) {
+    const LitHall hall;
+    StillLightingSettings settings;
+    settings.parts = {2, 2};
+    const ClvVolume place = volumeOverBounds(vec3(-10.0f, -3.0f, -7.0f), vec3(10.0f, 3.0f, 7.0f), 6, kClvStorageCube9);
+    const auto frame = [&](StillLighting& lighting, std::size_t rays, int* drawn) {
+        lighting.rays(hall.sampler, rays);
+        ++*drawn;
+        lighting.trace();
+        lighting.inject();
+        lighting.merge();
     };
-    frames();
-    const vec3 expected = irradiance;
-    EXPECT_GT(expected.x, 0.0f);
-    EXPECT_GT(runOutOfMemory(frames), 100u);
-    EXPECT_EQ(irradiance, expected);
+    const auto make = [&] {
+        auto lighting = std::make_unique<StillLighting>(settings, hall.tracer(), serialFor());
+        lighting->addLevel(buildLevel(place, hall.scene.probe(), {}, serialFor()));
+        return lighting;
+    };
+    const auto historyOf = [](const StillLighting& lighting) {
+        const std::span<const float> history = lighting.volumes()[0].history(0);
+        return std::vector<float>(history.begin(), history.end());
+    };
+    std::size_t failures = 0;
+    for (bool enough = false; !enough; failures += !enough) {
+        const auto broken = make(), fresh = make();
+        int drawn = 0, ignored = 0;
+        enough = !failsAt(failures, [&] { frame(*broken, 400, &drawn); });
+        broken->volumes()[0].reset();
+        for (int k = 0; k < drawn; ++k) fresh->rays(hall.sampler, 400);
+        frame(*broken, 400, &ignored), frame(*fresh, 400, &ignored);
+        const std::vector<float> history = historyOf(*broken);
+        ASSERT_EQ(history, historyOf(*fresh)) << failures;
+        EXPECT_NE(history, std::vector<float>(history.size(), 0.0f));
+    }
+    EXPECT_GT(failures, 0u);
 }
 
 // What a failed move leaves can be moved again; that nothing is read beyond its end is for the address sanitizer to say.

@@ -1,6 +1,7 @@
 // The core runs where an engine has floating-point traps switched on: no number of a frame is invalid, divided by zero or too large.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 
 #include "bindings/cli/stress/walk_rays.h"
@@ -84,6 +85,55 @@ TEST(FloatingPointTraps, areNotSprungByRaysOfAnyKind) {
     walkPacketPortable(level, kClvInjectTrackLength, std::span(rays).first(kPacketLanes), buffer, flush);
     flush(buffer);
     EXPECT_GT(length, 0.0f);
+}
+
+TEST(FloatingPointTraps, areNotSprungByRaysThatAreDeadOrAsBrightAsFloatsOrWhoseFluxIsNoNumber) {
+    for (float cellSize : {1e-9f, 0.37f, 1e5f}) {
+        for (uint storage : {kClvStorageCube, kClvStorageCube9, kClvStorageSh1, kClvStorageSh2}) {
+            ClvVolume volume{};
+            volume.origin = vec3(-4.0f * cellSize), volume.cellSize = cellSize, volume.resolution = ivec3(8), volume.storage = storage;
+            const Level level = buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+            const DepositLayout layout{storage, 3};
+            Random random(7);
+            std::vector<ClvRay> rays;
+            for (int k = 0; k < 2000; ++k) {
+                ClvRay ray = rayOfKind(RayKind::kAnywhere, random, volume);
+                switch (k % 7) {
+                    case 0: ray.flux = vec3(3e38f); break;
+                    case 1: ray = clvDeadRay(); break;
+                    case 2: ray.flux.y = std::nanf(""); break;
+                    case 3: ray.flux.z = HUGE_VALF; break;
+                    case 4: ray.flux.x = -HUGE_VALF; break;
+                    case 5: ray.maxDistance = HUGE_VALF; break;
+                    case 6: ray.direction = vec3(0.0f); break;
+                }
+                rays.push_back(ray);
+            }
+            PartialVolume partial;
+            partial.resize(level.slots.size(), layout, false);
+            const FloatingPointTraps traps;
+            inject(level, layout, kClvInjectTrackLength, rays, partial.target());
+            inject(level, layout, kClvInjectThesis, rays, partial.target());
+        }
+    }
+}
+
+TEST(FloatingPointTraps, areNotSprungByACameraThatJumpsAMillionCells) {
+    const LitHall hall;
+    MovingLightingSettings settings = twoCascades();
+    settings.cascades.resolution = ivec3(8), settings.cascades.marginCells = 1, settings.movingLights = true;
+    const FloatingPointTraps traps;
+    MovingLighting lighting(settings, hall.scene.probe(), hall.tracer(), serialFor());
+    for (double cells : {0.0, 1e6, 0.0, -1e6, 4e6, 0.0}) {
+        lighting.moveTo(viewFrom(0.5 * cells, 0.0, 0.0));
+        for (float timestep : {1e-4f, 1.0f / 60.0f, 1e3f}) {
+            lighting.rays(hall.sampler, 500);
+            lighting.trace();
+            lighting.inject();
+            lighting.merge(timestep);
+        }
+    }
+    EXPECT_GT(meanOf(irradianceAt(lighting, floorAround(vec3(0.0f), 3.0f))).x, 0.0f);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ std::vector<StressFigure> injectBeside(const StressSettings& settings) {
         }
         most = std::max(most, crossings);
         const float* record = partial.deposits.data() + level.table[i] * std::size_t(layout.stride());
-        for (std::size_t k = 0; k < 27; ++k) worst = std::max(worst, std::abs(double(record[k]) - sum[k]) / (kLastPlace * magnitude[k]));
+        for (std::size_t k = 0; k < 27; ++k) worst = largerOf(worst, std::abs(double(record[k]) - sum[k]) / (kLastPlace * magnitude[k]));
     }
     return {{"most rays in a cell", most}, {"sum of a cell, last places of what its pieces follow from", worst, 1.0}};
 }
@@ -104,15 +104,15 @@ std::vector<StressFigure> mergeBeside(const StressSettings& settings) {
         const auto history = float(anyPower(random, -6, 6)), current = float(anyPower(random, -6, 6));
         const float weight = k % 2 == 0 ? random.unit() : float(anyPower(random, -7, 0));
         const double exact = double(history) + double(weight) * (double(current) - double(history));
-        step = std::max(step, std::abs(double(clvMergeStep(history, current, weight)) - exact) / (kLastPlace * std::max(double(history), double(current))));
+        step = largerOf(step, std::abs(double(clvMergeStep(history, current, weight)) - exact) / (kLastPlace * std::max(double(history), double(current))));
         const auto timestep = float(anyPower(random, -4, 3)), rate = float(anyPower(random, -4, 2));
         const double share = -std::expm1(-double(timestep) * double(rate));
-        decayed = std::max(decayed, std::abs(double(clvDecayed(timestep, rate)) - share) / (kLastPlace * share));
+        decayed = largerOf(decayed, std::abs(double(clvDecayed(timestep, rate)) - share) / (kLastPlace * share));
         ClvMergeSettings merge{timestep, float(anyPower(random, 0, 3)), float(anyPower(random, -3, 0)), 1.0f};
         const float dynamicity = random.unit();
         const double still = 1.0 / double(merge.stillTime), mixed = still + (1.0 / double(merge.movingTime) - still) * double(dynamicity);
         const double expected = -std::expm1(-double(timestep) * mixed);
-        alpha = std::max(alpha, std::abs(double(clvMergeAlpha(merge, dynamicity)) - expected) / (kLastPlace * expected));
+        alpha = largerOf(alpha, std::abs(double(clvMergeAlpha(merge, dynamicity)) - expected) / (kLastPlace * expected));
     }
     return {{"a step, last places of the larger value", step, 2.0}, {"a decay, last places", decayed, 8.0}, {"a weight, last places", alpha, 8.0}};
 }
@@ -175,7 +175,7 @@ std::vector<StressFigure> evaluateBeside(const StressSettings& settings) {
         const ClvReceiver receiver{placeAround(random, level.volume, -0.2f), 0.0f, anyDirection(random), 0.0f};
         lookupWeights(level, receiver, {}, read);
         const ExactWeights exact = exactWeights(level, receiver, read);
-        for (std::size_t i = 0; i < exact.weight.size(); ++i) weights = std::max(weights, std::abs(double(read.weight[i]) - exact.weight[i]) / (kLastPlace * exact.magnitude));
+        for (std::size_t i = 0; i < exact.weight.size(); ++i) weights = largerOf(weights, std::abs(double(read.weight[i]) - exact.weight[i]) / (kLastPlace * exact.magnitude));
         const std::array<double, 9> r = readOf(dvec3(receiver.normal));
         double sum = 0.0, magnitude = 0.0;
         for (std::size_t i = 0; i < exact.weight.size(); ++i) {
@@ -185,7 +185,7 @@ std::vector<StressFigure> evaluateBeside(const StressSettings& settings) {
             }
         }
         const vec3 e = readIrradiance(layout, deposits, read, layout.read(receiver.normal));
-        light = std::max(light, std::abs(double(e.x) - std::max(sum, 0.0)) / (kLastPlace * magnitude));
+        light = largerOf(light, std::abs(double(e.x) - std::max(sum, 0.0)) / (kLastPlace * magnitude));
     }
     return {{"weights, last places of their sum", weights, 64.0}, {"irradiance, last places of the terms' sum", light, 64.0}};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clv/cpu/parallel.h"
+#include "clv/plan/number_check.h"
 
 namespace clv {
 
@@ -17,9 +18,12 @@ struct StressFigure {
     std::string name;         // with its unit
     double value = 0.0;
     double atMost = kStated;
-    // NaN holds nowhere.
-    bool holds() const { return value <= atMost; }
+    // What is not finite holds nowhere.
+    bool holds() const { return isFinite(value) && value <= atMost; }
 };
+
+// The larger of two; NaN if one of them is.
+inline double largerOf(double a, double b) { return isFinite(a) && (!isFinite(b) || b > a) ? b : a; }
 
 struct StressSettings {
     bool exhaustive = false;

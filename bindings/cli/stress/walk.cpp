@@ -55,7 +55,7 @@ struct ClippedLength {
     double least = 0.0, most = 0.0;
     double place = 0.0;  // of the largest coordinate or distance
     // How far a length lies outside of [least, most].
-    double excess(double length) const { return std::max({0.0, least - length, length - most}); }
+    double excess(double length) const { return largerOf(0.0, largerOf(least - length, length - most)); }
 };
 ClippedLength clippedLength(const ClvVolume& v, const ExactRay& ray) {
     const double rounding = 2.0 * ray.place;
@@ -68,7 +68,7 @@ struct WalkErrors {
     double displaced = 0.0;    // how far a piece lies outside of its cell, in last places
     double steps = 0.0, outside = 0.0, endless = 0.0, negative = 0.0;
     void take(const WalkErrors& o) {
-        length = std::max(length, o.length), displaced = std::max(displaced, o.displaced);
+        length = largerOf(length, o.length), displaced = largerOf(displaced, o.displaced);
         steps += o.steps, outside += o.outside, endless += o.endless, negative += o.negative;
     }
 };
@@ -89,7 +89,7 @@ WalkErrors walkOne(const ClvVolume& v, const ClvRay& ray) {
         errors.outside += clvCellInside(v, crossing.cell) == 0;
         for (double t : {double(crossing.tBegin), double(crossing.tEnd)}) {
             const glm::dvec3 above = exact.origin + exact.direction * t - glm::dvec3(crossing.cell);
-            for (int axis = 0; axis < 3; ++axis) errors.displaced = std::max(errors.displaced, std::max(-above[axis], above[axis] - 1.0) / exact.place);
+            for (int axis = 0; axis < 3; ++axis) errors.displaced = largerOf(errors.displaced, std::max(-above[axis], above[axis] - 1.0) / exact.place);
         }
         // Each step goes to a neighbour, forwards along one axis, so no cell comes twice.
         if (cells > 0) {
@@ -159,8 +159,8 @@ std::vector<StressFigure> packets(const StressSettings& settings) {
         partial.clear();
         inject(level, layout, kClvInjectTrackLength, rays, partial.target());
         double sum = 0.0;
-        for (float value : partial.target().deposits) sum += value, notFinite += !std::isfinite(value);
-        worst = std::max(worst, ClippedLength{least, most}.excess(sum) / place);
+        for (float value : partial.target().deposits) sum += value, notFinite += !clvIsFinite(value);
+        worst = largerOf(worst, ClippedLength{least, most}.excess(sum) / place);
     }
     return {{"packets of 16 rays", double(rounds)}, {"deposited length, last places a ray", worst, 4.0}, {"deposits that are not finite", notFinite, 0.0}};
 }

@@ -24,7 +24,7 @@ private:
 
 enum class RayKind {
     kAnywhere, kAlongAxis, kAlongEdge, kThroughCorners, kFromBoundary, kNextToBoundary, kToBoundary, kFromOutside, kOntoCorner, kPastTheGrid, kBesideTheGrid,
-    kTinyComponents, kShort, kEndless, kCount
+    kTinyComponents, kShort, kEndless, kAlongAxisToBoundary, kCount
 };
 
 // In the grid, or up to `margin` of its size around it.
@@ -114,6 +114,18 @@ inline ClvRay rayOfKind(RayKind kind, Random& random, const ClvVolume& v) {
             const float lengths[] = {0.0f, 1e-45f, 1e-38f, 1e-30f, 1e-20f, 1e-7f, 1e-5f};
             ray.maxDistance = lengths[random.below(7)] * (random.unit() < 0.5f ? 1.0f : v.cellSize);
             if (random.unit() < 0.5f) ray.origin = cellCorner(random, v);
+            break;
+        }
+        case RayKind::kAlongAxisToBoundary: {
+            // From a boundary, a corner or anywhere, ending exactly on a boundary wherever floats hold it.
+            ray.direction = axisDirection(random);
+            if (random.unit() < 0.7f) {
+                const vec3 corner = cellCorner(random, v);
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (ray.direction[axis] != 0.0f || random.unit() < 0.3f) ray.origin[axis] = corner[axis];
+                }
+            }
+            ray.maxDistance = float(random.below(int(size / v.cellSize) + 2)) * v.cellSize;
             break;
         }
         case RayKind::kEndless: ray.maxDistance = random.unit() < 0.5f ? 1e30f : kClvFar; break;
