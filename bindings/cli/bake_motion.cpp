@@ -65,6 +65,7 @@ PipelineReport bakeMotion(const Scene& scene, const Motion& motion, const LightO
         turnFaces(moving);
         embree.emplace(moving);
     }
+    embree->setSolids(!heed.sheets);
     MovingLight light(*embree, {.cascades = desc, .storage = options.storage, .rays = std::size_t(options.rays), .seed = seed}, parallelFor);
     BakedVolume volume = describe(scene, seed, light.layout());
     Progress progress("light");

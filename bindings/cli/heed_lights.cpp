@@ -39,12 +39,10 @@ LightHeed heedLights(const EmbreeScene& scene, float cellSize, double rays, cons
     if (!(largestRayFlux(lightsThatSend(scene.scene()), bounds.lo, bounds.hi) <= most)) {
         heed.warnings.push_back(fmt::format("the lights send more than the {:g} W that cells of this size can add up: what is beyond is cut off", most));
     }
-    if (heed.insideOut) {
-        heed.warnings.push_back("most of the light falls on the backs of surfaces: all of them are taken to face the other way");
-    } else if (check.shareOnBacks > kStray) {
-        heed.warnings.push_back(fmt::format(
-            "{:.0f} % of the light falls on the backs of surfaces; what is enclosed by backs counts as solid, and light in there is wrong", 100.0 * check.shareOnBacks));
-    }
+    if (heed.insideOut) heed.warnings.push_back("most of the light falls on the backs of surfaces: all of them are taken to face the other way");
+    const double onBacks = heed.insideOut ? 1.0 - check.shareOnBacks : check.shareOnBacks;
+    heed.sheets = onBacks > kStray;
+    if (heed.sheets) heed.warnings.push_back(fmt::format("{:.0f} % of the light falls on the backs of surfaces: nothing counts as solid", 100.0 * onBacks));
     return heed;
 }
 

@@ -11,6 +11,7 @@ namespace clv {
 struct LightHeed {
     std::vector<std::string> warnings;
     bool insideOut = false;  // all faces are to be turned around
+    bool sheets = false;     // nothing is to count as solid
 };
 
 // What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out. cellSize: m, of the cells that

@@ -14,6 +14,7 @@ namespace {
 constexpr float kSlack = 1.0f / 64.0f;        // of the scene's largest extent, that points may lie outside without a word
 constexpr std::size_t kMostLooks = 1024;      // points that look around
 constexpr double kStray = 0.005;              // share of them that may face into something solid without a word
+constexpr double kMany = 0.05;                // share of them beyond which surfaces are sheets
 constexpr int kMostlyBacks = kSeenRays / 2;   // rays that meet backs, at least, and three times as many as meet fronts
 
 void heedPlaces(const Bounds& bounds, std::span<const ClvReceiver> points, std::vector<std::string>& warnings) {
@@ -30,24 +31,28 @@ void heedPlaces(const Bounds& bounds, std::span<const ClvReceiver> points, std::
         warnings.push_back(fmt::format("{} of {} points lie outside of the scene's bounds, by up to {:.3g} m: no light is stored there, and they get that of the edge", outside, points.size(), farthest));
 }
 
-void heedSides(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor, std::vector<std::string>& warnings) {
+// The share of the points that face backs.
+double shareThatFacesBacks(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
     const std::size_t looks = std::min(points.size(), kMostLooks);
     std::atomic<std::size_t> inside = 0;
     parallelFor(looks, [&](std::size_t k) {
         const SeenFaces seen = seenFaces(scene, points[k * points.size() / looks], clvHash(uint(k)));
         inside += seen.backs >= kMostlyBacks && seen.backs > 3 * seen.fronts;
     });
-    if (double(inside) > kStray * double(looks))
-        warnings.push_back(fmt::format("{:.1f} % of the points face the backs of surfaces: what is enclosed by backs counts as solid, and what they get is not their own light", 100.0 * double(inside) / double(looks)));
+    return double(inside) / double(std::max<std::size_t>(looks, 1));
 }
 
 }  // namespace
 
-std::vector<std::string> heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
-    std::vector<std::string> warnings;
-    heedPlaces(scene.scene().bounds, points, warnings);
-    heedSides(scene, points, parallelFor, warnings);
-    return warnings;
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
+    PointHeed heed;
+    heedPlaces(scene.scene().bounds, points, heed.warnings);
+    const double inside = shareThatFacesBacks(scene, points, parallelFor);
+    heed.sheets = inside > kMany;
+    if (inside > kStray)
+        heed.warnings.push_back(fmt::format("{:.1f} % of the points face the backs of surfaces: {}", 100.0 * inside,
+                                            heed.sheets ? "nothing counts as solid" : "what is enclosed by backs counts as solid, and what they get is not their own light"));
+    return heed;
 }
 
 }  // namespace clv

@@ -10,7 +10,12 @@
 
 namespace clv {
 
-// Warnings, a line each, of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.
-std::vector<std::string> heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+struct PointHeed {
+    std::vector<std::string> warnings;
+    bool sheets = false;  // so many face backs that nothing is to count as solid
+};
+
+// Warns of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
 
 }  // namespace clv

@@ -48,8 +48,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
             moveTo(*proxyScene_, scene.anchor);
             proxy_.emplace(*proxyScene_);
         }
-        heedLights();
-        for (const std::string& warning : heedPoints(*embree_, points, parallelFor)) report.warnings.push_back(warning);
+        heedScene();
         if (needs.feedback) surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
         if (automatic) chooseJudges();
         const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
@@ -62,17 +61,22 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
     report.device = backend_->device();
 }
 
-void LightJob::heedLights() {
+void LightJob::heedScene() {
     const int coarsest = options.resolution > 0 ? options.resolution : resolutionsFor(double(options.rays)).front();
     const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, coarsest, options).cellSize, double(options.rays), parallelFor);
     report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
-    if (!heed.insideOut) return;
-    turned_ = scene;
-    turnFaces(*turned_);
-    embree_.emplace(*turned_);
-    if (!proxyScene_) return;
-    turnFaces(*proxyScene_);
-    proxy_.emplace(*proxyScene_);
+    if (heed.insideOut) {
+        turned_ = scene;
+        turnFaces(*turned_);
+        embree_.emplace(*turned_);
+        if (proxyScene_) {
+            turnFaces(*proxyScene_);
+            proxy_.emplace(*proxyScene_);
+        }
+    }
+    const PointHeed pointHeed = heedPoints(*embree_, points, parallelFor);
+    report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
+    embree_->setSolids(!heed.sheets && !pointHeed.sheets);
 }
 
 // Some of the points, and with few of them some that the cameras see.

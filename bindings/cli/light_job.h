@@ -49,7 +49,7 @@ struct LightJob {
     PipelineReport report;
 
 private:
-    void heedLights();
+    void heedScene();
     void chooseJudges();
 
     std::optional<EmbreeScene> embree_, proxy_;

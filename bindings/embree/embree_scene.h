@@ -43,10 +43,14 @@ public:
 
     // What buildLevel asks, answered by this scene; valid as long as the scene is.
     SceneProbe probe() const;
+    // See SceneProbe::solids; true unless it is set, before probe() is asked for.
+    bool solids() const { return solids_; }
+    void setSolids(bool solids) { solids_ = solids; }
 
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;
+    bool solids_ = true;
 };
 
 }  // namespace clv

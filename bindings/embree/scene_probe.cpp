@@ -12,6 +12,7 @@ SceneProbe EmbreeScene::probe() const {
         float distance = glm::length(d);
         return distance > 0.0f && occluded(from, d / distance, distance);
     };
+    probe.solids = solids_;
     return probe;
 }
 

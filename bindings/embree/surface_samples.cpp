@@ -54,7 +54,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};
                 const SeenFaces seen = seenFaces(embree, receiver, clvHashCombine(seed, uint(2 * k + side)));
-                kept[2 * k + side] = seen.fronts > seen.backs;
+                kept[2 * k + side] = embree.solids() ? seen.fronts > seen.backs : seen.fronts + seen.backs > 0;
             }
         }
     });

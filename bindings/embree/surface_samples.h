@@ -17,7 +17,7 @@ struct SurfaceSamples {
 };
 
 // `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. A side
-// is left out when nothing that it sees is a front: the inside of a solid, the outside of a closed room. Neighbours among the receivers
+// is left out when it sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then. Neighbours among the receivers
 // face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
 SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor);
 

@@ -123,8 +123,32 @@ TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
     builder.beginNode("box");
     addBox(builder, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, builder.addMaterial({"grey", glm::vec3(0.5f), -1}));
     builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.0, 3.0, 0.0});
-    EXPECT_TRUE(isWarned(lightOf(std::move(builder).finish("solid"), options, inside), "100.0 % of the points face the backs"));
+    const Light solid = lightOf(std::move(builder).finish("solid"), options, inside);
+    EXPECT_TRUE(isWarned(solid, "100.0 % of the points face the backs of surfaces: nothing counts as solid"));
+    for (const glm::vec3& e : solid.irradiance) EXPECT_EQ(e, glm::vec3(0.0f));
     EXPECT_TRUE(isWarned(lightOf(like, options, pointsOnWalls(8.0f)), "864 of 864 points lie outside of the scene's bounds, by up to 4 m"));
+}
+
+TEST(Sheets, aRoomWhoseWallsFaceOutwardsBesideOneWhoseFaceInwardsHasItsLight) {
+    SceneBuilder builder("rooms");
+    const std::uint32_t grey = builder.addMaterial({"grey", glm::vec3(0.5f), -1});
+    builder.beginNode("inwards");
+    BlockGrid grid{{-1.0, 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, [](const glm::ivec3&) { return false; }, true};
+    addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return grey; });
+    builder.addLight("bright", makePointLight(glm::vec3(2.0f)), {0.2, 0.1, -0.3});
+    builder.beginNode("outwards");
+    addBox(builder, {4, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, grey);
+    builder.addLight("dim", makePointLight(glm::vec3(1.0f)), {4.2, 0.1, -0.3});
+    const Scene scene = std::move(builder).finish("rooms");
+    for (bool all : {false, true}) {
+        LightOptions options = optionsFor(all, 1u << 20);
+        options.resolution = 16;
+        const double exact = (all ? 1.0 : 0.5) * kLampFlux / 24.0;
+        const Light inwards = lightOf(scene, options, pointsOnWalls(0.0f)), outwards = lightOf(scene, options, pointsOnWalls(4.0f));
+        EXPECT_NEAR(meanIrradiance(inwards.irradiance), 2.0 * exact, 0.02 * 2.0 * exact);
+        EXPECT_NEAR(meanIrradiance(outwards.irradiance), exact, 0.02 * exact);
+        EXPECT_TRUE(isWarned(outwards, "33 % of the light falls on the backs of surfaces: nothing counts as solid"));
+    }
 }
 
 // Surface points that the scene's cameras see.

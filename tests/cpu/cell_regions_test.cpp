@@ -61,6 +61,18 @@ TEST(CellRegions, aSolidLongerThanTheLinesIsStillSolid) {
     const CellRegions& beside = finder.find(lines, ivec3(1, 2, 1));
     ASSERT_EQ(beside.regions.size(), 1u);
     EXPECT_NEAR(beside.regions[0].volume, 0.8f * h * h * h, 0.01f * h * h * h);
+
+    // Where surfaces are sheets, the inside is open space of its own.
+    SceneProbe sheets = scene.probe();
+    sheets.solids = false;
+    lines.trace(volume, {ivec3(0), volume.resolution}, 8, {}, sheets, serialFor());
+    ASSERT_EQ(finder.find(lines, ivec3(1)).regions.size(), 1u);
+    EXPECT_FLOAT_EQ(finder.find(lines, ivec3(1)).regions[0].volume, h * h * h);
+    const CellRegions& both = finder.find(lines, ivec3(1, 2, 1));
+    ASSERT_EQ(both.regions.size(), 2u);
+    EXPECT_NEAR(both.regions[0].volume, 0.8f * h * h * h, 0.01f * h * h * h);
+    EXPECT_NEAR(both.regions[1].volume, 0.2f * h * h * h, 0.01f * h * h * h);
+    ASSERT_EQ(both.splits.size(), 1u);
 }
 
 }  // namespace

@@ -183,6 +183,7 @@ private:
 
     // For a cell that nothing cuts: whether all lines that meet something lie between backs.
     bool solidAround() const {
+        if (!lines_->solids()) return false;
         bool enclosed = false, open = false;
         for (const Crossed& line : crossed_) {
             const int below = shownBelow(line.hits, line.first), above = shownAbove(line.hits, line.first);
@@ -240,6 +241,7 @@ private:
         const float perLine = h_ * h_ / float(n_ * n_);
         for (float& w : axisWeight) w = weights > 0.0f ? w / weights * perLine : perLine / 3.0f;
 
+        const bool solids = lines_->solids();
         regions_.clear();
         regionOf_.assign(nodes_.size(), -1);
         for (int k = 0; k < int(nodes_.size()); ++k) {
@@ -252,14 +254,14 @@ private:
             const Node& node = nodes_[k];
             const float length = node.end - node.begin;
             if (node.fronts() + node.backs() > 0) region.bounded += length;
-            region.fronts += length * float(node.fronts());
-            region.backs += length * float(node.backs());
-            if (node.backs() == 2) region.enclosed += length;
+            region.fronts += length * float(node.fronts() + (solids ? 0 : node.backs()));
+            region.backs += solids ? length * float(node.backs()) : 0.0f;
+            if (solids && node.backs() == 2) region.enclosed += length;
             region.volume += length * axisWeight[node.axis];
         }
         // The inside of a solid never holds light.
         std::erase_if(regions_, [&](const Region& r) {
-            return r.enclosed > kSolidShare * r.bounded || !(r.volume > kLeastShare * h_ * h_ * h_);
+            return (solids && r.enclosed > kSolidShare * r.bounded) || !(r.volume > kLeastShare * h_ * h_ * h_);
         });
         std::sort(regions_.begin(), regions_.end(),
                   [](const Region& a, const Region& b) { return a.rank() != b.rank() ? a.rank() > b.rank() : a.root < b.root; });

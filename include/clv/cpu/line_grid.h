@@ -23,6 +23,7 @@ public:
         volume_ = volume;
         box_ = box;
         perCell_ = perCell;
+        solids_ = probe.solids;
         const ivec3 size = box.hi - box.lo;
         for (int axis = 0; axis < 3; ++axis) {
             const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -41,6 +42,7 @@ public:
 
     const ClvVolume& volume() const { return volume_; }
     int perCell() const { return perCell_; }
+    bool solids() const { return solids_; }
 
     // Offset of a lattice coordinate inside a cell, in cells. The small shifts keep lines off surfaces that are aligned with cells.
     float latticeOffset(int axis, int i) const {
@@ -97,6 +99,7 @@ private:
     ClvVolume volume_{};
     CellBox box_{};
     int perCell_ = 0;
+    bool solids_ = true;
     std::vector<std::uint8_t> columns_;
     std::vector<Row> rows_[3];
 };

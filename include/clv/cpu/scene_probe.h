@@ -20,6 +20,9 @@ struct SceneProbe {
     std::function<void(const vec3& origin, const vec3& direction, float maxDistance, std::vector<LineHit>& hits)> lineHits;
     // Whether a surface lies between two positions.
     std::function<bool(const vec3& from, const vec3& to)> occluded;
+    // Whether what backs enclose is the inside of something solid, which holds no light; otherwise surfaces are sheets, with open space on both sides,
+    // which takes more memory and blurs more around thin walls.
+    bool solids = true;
 };
 
 }  // namespace clv
