@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bindings/embree/path_tracer.h"
 #include "bindings/embree/seen_faces.h"
 #include "clv/math/hash.h"
 
@@ -14,7 +15,7 @@ namespace {
 constexpr float kSlack = 1.0f / 64.0f;        // of the scene's largest extent, that points may lie outside without a word
 constexpr std::size_t kMostLooks = 1024;      // points that look around
 constexpr double kStray = 0.005;              // share of them that may face into something solid without a word
-constexpr double kMany = 0.05;                // share of them beyond which surfaces are sheets
+constexpr double kMany = 0.05;                // share of them that face lit backs, beyond which surfaces are sheets
 constexpr int kMostlyBacks = kSeenRays / 2;   // rays that meet backs, at least, and three times as many as meet fronts
 
 void heedPlaces(const Bounds& bounds, std::span<const ClvReceiver> points, std::vector<std::string>& warnings) {
@@ -31,15 +32,23 @@ void heedPlaces(const Bounds& bounds, std::span<const ClvReceiver> points, std::
         warnings.push_back(fmt::format("{} of {} points lie outside of the scene's bounds, by up to {:.3g} m: no light is stored there, and they get that of the edge", outside, points.size(), farthest));
 }
 
-// The share of the points that face backs.
-double shareThatFacesBacks(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
+// Shares of the points that face backs, and of those whose surroundings there are lit by a lamp.
+struct Facing {
+    double backs = 0.0, litBacks = 0.0;
+};
+Facing facing(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
     const std::size_t looks = std::min(points.size(), kMostLooks);
-    std::atomic<std::size_t> inside = 0;
+    std::atomic<std::size_t> backs = 0, litBacks = 0;
     parallelFor(looks, [&](std::size_t k) {
-        const SeenFaces seen = seenFaces(scene, points[k * points.size() / looks], clvHash(uint(k)));
-        inside += seen.backs >= kMostlyBacks && seen.backs > 3 * seen.fronts;
+        const ClvReceiver& point = points[k * points.size() / looks];
+        const SeenFaces seen = seenFaces(scene, point, clvHash(uint(k)));
+        if (seen.backs < kMostlyBacks || seen.backs <= 3 * seen.fronts) return;
+        ++backs;
+        bool lit = false;
+        seenFaces(scene, point, clvHash(uint(k)), [&](const vec3& position, const vec3& normal) { lit = lit || directIrradiance(scene, position, normal) != vec3(0.0f); });
+        litBacks += lit;
     });
-    return double(inside) / double(std::max<std::size_t>(looks, 1));
+    return {double(backs) / double(looks), double(litBacks) / double(looks)};
 }
 
 }  // namespace
@@ -47,11 +56,12 @@ double shareThatFacesBacks(const EmbreeScene& scene, std::span<const ClvReceiver
 PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
     PointHeed heed;
     heedPlaces(scene.scene().bounds, points, heed.warnings);
-    const double inside = shareThatFacesBacks(scene, points, parallelFor);
-    heed.sheets = inside > kMany;
-    if (inside > kStray)
-        heed.warnings.push_back(fmt::format("{:.1f} % of the points face the backs of surfaces: {}", 100.0 * inside,
-                                            heed.sheets ? "nothing counts as solid" : "what is enclosed by backs counts as solid, and what they get is not their own light"));
+    if (points.empty()) return heed;
+    const Facing share = facing(scene, points, parallelFor);
+    heed.sheets = share.litBacks > kMany;
+    if (share.backs > kStray)
+        heed.warnings.push_back(fmt::format("{:.1f} % of the points face the backs of surfaces: {}", 100.0 * share.backs,
+                                            heed.sheets ? "light is in there, and nothing counts as solid" : "what is enclosed by backs counts as solid, and what they get is not their own light"));
     return heed;
 }
 

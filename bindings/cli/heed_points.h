@@ -12,7 +12,7 @@ namespace clv {
 
 struct PointHeed {
     std::vector<std::string> warnings;
-    bool sheets = false;  // so many face backs that nothing is to count as solid
+    bool sheets = false;  // so many face backs that are lit that nothing is to count as solid
 };
 
 // Warns of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.

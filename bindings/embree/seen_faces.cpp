@@ -5,14 +5,17 @@
 
 namespace clv {
 
-SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed) {
+SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed,
+                    const std::function<void(const glm::vec3& position, const glm::vec3& normal)>& onHit) {
     SeenFaces seen;
+    const glm::vec3 origin = receiver.position + receiver.normal * scene.surfaceOffset();
     for (uint k = 0; k < uint(kSeenRays); ++k) {
         const vec4 u = clvSobol4(k, seed);
         const vec3 direction = clvCosineFromSquare(vec2(u.x, u.y), receiver.normal);
-        const ClvHit hit = scene.hit(receiver.position + receiver.normal * scene.surfaceOffset(), direction, kClvFar);
+        const ClvHit hit = scene.hit(origin, direction, kClvFar);
         if (hit.primitive == kClvNoPrimitive) continue;
         (dot(windingNormal(scene.scene(), hit.primitive), direction) < 0.0f ? seen.fronts : seen.backs)++;
+        if (onHit) onHit(origin + direction * hit.distance, hit.normal);
     }
     return seen;
 }

@@ -1,5 +1,7 @@
 // What a receiver sees of the surfaces around it: their fronts or their backs.
 #pragma once
+#include <functional>
+
 #include "bindings/embree/embree_scene.h"
 #include "clv/stages/evaluate.h"
 
@@ -11,7 +13,9 @@ struct SeenFaces {
     int fronts = 0, backs = 0;  // of kSeenRays rays, cosine-weighted over the receiver's hemisphere; the others leave the scene
 };
 
-SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed);
+// onHit: called with the position (m) of each hit, and its normal on the side that is seen.
+SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed,
+                    const std::function<void(const glm::vec3& position, const glm::vec3& normal)>& onHit = {});
 
 // Right-handed normal of a triangle, m^2, twice its area long: on its front.
 glm::vec3 windingNormal(const Scene& scene, std::uint32_t triangle);
