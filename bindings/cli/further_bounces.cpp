@@ -17,6 +17,7 @@ constexpr int kLastWithoutLimit = 24;              // the same where there is no
 constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays that are left that a bounce leaves to later ones
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left out
 constexpr double kWalked = 0.125, kSpread = 0.125;  // of the rays that are left to later bounces, those that find where their light is, and those that spread it
+constexpr std::size_t kFewestToWalk = 128;         // rays
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
@@ -102,17 +103,23 @@ private:
     }
 
     // The light of what the emitters send, and of all bounces after that. A walk finds how much it is and where; its places are few, and
-    // bright spots lie before them, so that a volume lit by them is read for what surfaces send on: that leaves all of them.
+    // bright spots lie before them, so that a volume lit by them is read for what surfaces send on: that leaves all of them. Where there are
+    // too few rays to walk, all channels fall as in the last bounce.
     template <class Fill>
     void addRest(const Fill& fill, const TakeLight& take) {
         const auto share = [&](double part) { return wholeRays(part * left_); };
+        Pair spread, rest;
+        if (share(kWalked) < kFewestToWalk) {
+            for (ClvRsmTexel& emitter : emitters_) emitter.flux /= vec3(1.0 - glm::min(ratio_, kLargestRatio));
+            fill(rest, emitters_, share(1.0), 0x105u);
+            return take(rest.level, 1.0f);
+        }
         LightingSettings settings = job_.lightingSettings(1, share(kWalked), 0x102u);
         settings.emitters = emitters_.size();
         const auto lighting = job_.makeLighting(settings);
         WalkedLight walked;
         job_.clock.time("walk", [&] { walked = walkOn(*lighting, emitters_, share(kWalked), clvHashCombine(job_.seed, 0x103u), job_.scene.bounds); });
         job_.report.rays += walked.rays, job_.report.walked = walked.bounces;
-        Pair spread, rest;
         fill(spread, walked.emitters, share(kSpread), 0x104u);
         const std::vector<ClvRsmTexel> first = emitters_;
         power_ = fluxOf(walked.emitters) - fluxOf(first);

@@ -118,7 +118,7 @@ TEST_F(Irradiance, isTheSameForASeedWhateverTheThreads) {
 TEST_F(Irradiance, tracesAsManyRaysAsAreAskedFor) {
     constexpr int kRounding = 8;  // rays by which parts of volumes are filled up
     for (const Arguments& more : {Arguments{}, {"--frames", "7"}, {"--bounces", "all", "--resolution", "16"}}) {
-        for (int rays : {50, 100003}) {
+        for (int rays : {1, 50, 3001, 100003}) {
             Arguments all = {"--rays", std::to_string(rays)};
             all.insert(all.end(), more.begin(), more.end());
             const json report = run("cornell", rows_, all);
