@@ -66,6 +66,7 @@ public:
         for (int c = 0; c < 3; ++c) power_[c] = ratio_[c] < kLargestRatio ? power_[c] : 0.0;
         if (negligible() || !emitFrom(source)) return;
         // What is left: all later bounces at once.
+        for (Pair& one : pair) one.level.clear(), one.lighting.reset();
         addRest(fill, take);
     }
 
@@ -115,10 +116,11 @@ private:
             return take(rest.level, 1.0f);
         }
         LightingSettings settings = job_.lightingSettings(1, share(kWalked), 0x102u);
-        settings.emitters = emitters_.size();
-        const auto lighting = job_.makeLighting(settings);
+        settings.emitters = std::max(emitters_.size(), kMostWalked);
+        auto lighting = job_.makeLighting(settings);
         WalkedLight walked;
         job_.clock.time("walk", [&] { walked = walkOn(*lighting, emitters_, share(kWalked), clvHashCombine(job_.seed, 0x103u), job_.scene.bounds); });
+        lighting.reset();
         job_.report.rays += walked.rays, job_.report.walked = walked.bounces;
         fill(spread, walked.emitters, share(kSpread), 0x104u);
         const std::vector<ClvRsmTexel> first = emitters_;

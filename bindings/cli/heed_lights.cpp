@@ -15,6 +15,7 @@ constexpr double kDim = 1e-3;       // share of all light below which a light co
 constexpr double kFewRays = 100.0;  // and rays, with which it is noise where it alone shines
 
 void heedDimLights(const LightCheck& check, const std::vector<NamedLight>& lights, double rays, std::vector<std::string>& warnings) {
+    if (rays == 0.0) return;
     std::size_t dim = 0, first = 0;
     for (std::size_t k = check.shares.size(); k-- > 0;) {
         if (check.shares[k] > 0.0 && check.shares[k] < kDim && check.shares[k] * rays < kFewRays) ++dim, first = k;

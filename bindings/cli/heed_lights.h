@@ -15,7 +15,7 @@ struct LightHeed {
 };
 
 // What lies behind the backs of surfaces counts as solid. A scene whose light falls on backs is inside out. cellSize: m, of the cells that
-// take the light. rays: that carry it.
+// take the light. rays: that carry it; 0: nobody knows.
 LightHeed heedLights(const EmbreeScene& scene, float cellSize, double rays, const ParallelFor& parallelFor);
 
 }  // namespace clv

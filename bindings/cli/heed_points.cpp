@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kSlack = 1.0f / 64.0f;        // of the scene's largest extent, that points may lie outside without a word
 constexpr std::size_t kMostLooks = 1024;      // points that look around
-constexpr double kStray = 0.005;              // share of them that may face into something solid without a word
+constexpr double kStray = 0.02;               // share of them that may face into something solid without a word
 constexpr double kMany = 0.05;                // share of them that face lit backs, beyond which surfaces are sheets
 constexpr int kMostlyBacks = kSeenRays / 2;   // rays that meet backs, at least, and three times as many as meet fronts
 
@@ -53,10 +53,10 @@ Facing facing(const EmbreeScene& scene, std::span<const ClvReceiver> points, con
 
 }  // namespace
 
-PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
-    PointHeed heed;
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, bool sheets, const ParallelFor& parallelFor) {
+    PointHeed heed{.warnings = {}, .sheets = sheets};
     heedPlaces(scene.scene().bounds, points, heed.warnings);
-    if (points.empty()) return heed;
+    if (points.empty() || sheets) return heed;
     const Facing share = facing(scene, points, parallelFor);
     heed.sheets = share.litBacks > kMany;
     if (share.backs > kStray)

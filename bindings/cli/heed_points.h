@@ -16,6 +16,7 @@ struct PointHeed {
 };
 
 // Warns of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.
-PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+// sheets: nothing counts as solid anyway.
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, bool sheets, const ParallelFor& parallelFor);
 
 }  // namespace clv

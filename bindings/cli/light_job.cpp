@@ -63,7 +63,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
 
 void LightJob::heedScene() {
     const int coarsest = options.resolution > 0 ? options.resolution : resolutionsFor(double(options.rays)).front();
-    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, coarsest, options).cellSize, double(options.rays), parallelFor);
+    const LightHeed heed = clv::heedLights(*embree_, volumeOver(scene, coarsest, options).cellSize, options.seconds > 0.0 ? 0.0 : double(options.rays), parallelFor);
     report.warnings.insert(report.warnings.end(), heed.warnings.begin(), heed.warnings.end());
     if (heed.insideOut) {
         turned_ = scene;
@@ -74,9 +74,9 @@ void LightJob::heedScene() {
             proxy_.emplace(*proxyScene_);
         }
     }
-    const PointHeed pointHeed = heedPoints(*embree_, points, parallelFor);
+    const PointHeed pointHeed = heedPoints(*embree_, points, heed.sheets, parallelFor);
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
-    embree_->setSolids(!heed.sheets && !pointHeed.sheets);
+    embree_->setSolids(!pointHeed.sheets);
 }
 
 // Some of the points, and with few of them some that the cameras see.

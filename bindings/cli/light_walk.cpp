@@ -12,7 +12,6 @@ namespace clv {
 namespace {
 
 constexpr std::size_t kFewestRays = 32;      // of a bounce: with fewer what is left is extrapolated
-constexpr std::size_t kMostAtOnce = 4096;
 constexpr double kNegligible = 1e-3;         // share of all the walk's light at which the rest is extrapolated
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
@@ -46,7 +45,7 @@ WalkedLight walkOn(Lighting& lighting, std::span<const ClvRsmTexel> first, std::
     std::vector<glm::dvec3> power = {fluxOf(lit)};
     double sum = total(power[0]);
     // A share of the rays begins the walk, and as many end it: the places of the last bounce stand for all after it.
-    const std::size_t many = std::clamp<std::size_t>(std::size_t(rays / 16), kFewestRays, kMostAtOnce);
+    const std::size_t many = std::clamp<std::size_t>(std::size_t(rays / 16), kFewestRays, kMostWalked);
     std::size_t count = many;
     for (bool last = false; total(power.back()) > 0.0;) {
         lighting.emit(lit);

@@ -64,10 +64,10 @@ ReferencePoint pointFromRow(const std::array<double, kColumns>& row, const glm::
 
 // Whether there was one. A line that never ends is refused before it takes all memory.
 bool readLine(std::istream& input, std::string& line, const std::string& file, std::size_t number) {
-    char text[kLongestLine + 2];
+    char text[kLongestLine + 1];
     input.getline(text, sizeof text);
     line.assign(text, std::size_t(input.gcount()) - (input.good() ? 1 : 0));
-    if (input.fail() && input.gcount() == kLongestLine + 1) throw InputError(fmt::format("{}:{}: expected at most {} characters", file, number, kLongestLine));
+    if (input.fail() && input.gcount() == std::streamsize(kLongestLine)) throw InputError(fmt::format("{}:{}: expected at most {} characters", file, number, kLongestLine));
     return !input.fail();
 }
 

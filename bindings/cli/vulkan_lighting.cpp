@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 
 #include "bindings/cli/scene_facts.h"
 #include "bindings/embree/light_maps.h"
@@ -133,6 +134,7 @@ public:
         });
     }
     void emit(std::span<const ClvRsmTexel> emitters) override {
+        if (emitters.size() > frame_.emitters) throw std::logic_error("more emitters than the lighting has room for");
         emitters_.assign(emitters.begin(), emitters.end());
         emitters_.resize(frame_.emitters, ClvRsmTexel{});
         parts_.clock.time("rsm", [&] {

@@ -22,7 +22,7 @@ namespace {
 Material readMaterial(const ObjMaterial& source, const std::string& file, SceneBuilder& builder, std::map<std::string, int>& textures) {
     Material material{.name = source.name};
     if (source.albedo) material.albedo = *source.albedo;
-    if (source.picture.empty()) return material;
+    if (source.picture.empty() || source.firstUse.empty()) return material;
     if (!source.albedo) material.albedo = glm::vec3(1.0f);
     const auto [known, isNew] = textures.try_emplace(source.picture, -1);
     if (isNew) {

@@ -52,6 +52,7 @@ public:
 
 private:
     void check(const ObjLine& line, const std::string& keyword, std::istringstream& words);
+    void addLibraries(const ObjLine& line, const std::string& names);
     void addFace(const ObjLine& line, std::istringstream& words);
     void useMaterial(std::size_t index) {
         isMaterialKnown_ = true;
@@ -82,16 +83,25 @@ void ObjCheck::check(const ObjLine& line, const std::string& keyword, std::istri
     } else if (keyword == "usemtl") {
         useMaterial(materials_.use(line, restOf(words)));
     } else if (keyword == "mtllib") {
-        const std::string name = restOf(words);
-        const std::filesystem::path library = std::filesystem::path(file_).parent_path() / name;
-        if (!isFile(library)) line.fail(fmt::format("a material library '{}' beside the file", name));
-        materials_.addLibrary(library.string());
+        addLibraries(line, restOf(words));
     } else if (keyword == "l" || keyword == "p") {
         ignore("points and lines");
     } else if (keyword == "curv" || keyword == "surf") {
         ignore("free-form curves and surfaces");
     }
     if (keyword == "v" || keyword == "vt" || keyword == "o" || keyword == "g") checked_.text += words.str() + '\n';
+}
+
+// A name, which may have blanks in it, or several without.
+void ObjCheck::addLibraries(const ObjLine& line, const std::string& names) {
+    const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
+    if (isFile(folder / names)) return materials_.addLibrary((folder / names).string());
+    if (names.empty()) line.fail("a material library beside the file");
+    std::istringstream words(names);
+    for (std::string name; words >> name;) {
+        if (!isFile(folder / name)) line.fail(fmt::format("a material library '{}' beside the file", names));
+        materials_.addLibrary((folder / name).string());
+    }
 }
 
 void ObjCheck::addFace(const ObjLine& line, std::istringstream& words) {

@@ -68,7 +68,8 @@ std::string readObjText(const std::string& file) {
         rest.remove_prefix(std::min(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1), rest.size()));
         for (const char c : piece)
             if (c != '\t' && static_cast<unsigned char>(c) < 0x20) throw InputError(fmt::format("{}:{}: expected text, not control characters", file, number));
-        const bool goesOn = piece.ends_with('\\');
+        const bool isComment = line.empty() && trimmed(piece).starts_with('#');
+        const bool goesOn = piece.ends_with('\\') && !isComment;
         if (goesOn) piece.remove_suffix(1);
         line += piece;
         blankLines += '\n';

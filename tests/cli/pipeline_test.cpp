@@ -109,6 +109,27 @@ TEST(Furnaces, everyRoomHasItsOwnSeries) {
     EXPECT_NEAR(meanIrradiance(lightOf(scene, options, pointsOnWalls(4.0f)).irradiance) / (9.0 * kLampFlux / 24.0), 1.0, 0.03);
 }
 
+// On a wide ground few of the samples of surfaces lie in the room, fewer than places that the walk of its light meets.
+TEST(Furnaces, aSmallRoomOnAWideGroundIsTheSameOnAllBackEnds) {
+    SceneBuilder builder("room");
+    const std::uint32_t white = builder.addMaterial({"white", glm::vec3(0.95f), -1});
+    builder.beginNode("room");
+    BlockGrid grid{{-1.0, 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, [](const glm::ivec3&) { return false; }, true};
+    addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return white; });
+    builder.beginNode("ground");
+    builder.addQuad({-50, -2, 50}, {50, -2, 50}, {50, -2, -50}, {-50, -2, -50}, white);
+    builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.2, 0.1, -0.3});
+    const Scene scene = std::move(builder).finish("room");
+    LightOptions options = optionsFor(true, 1u << 20);
+    options.resolution = 64;
+    const Light cpu = lightOf(scene, options, pointsOnWalls(0.0f));
+    options.backend.choice = "vulkan";
+    const Light gpu = lightOf(scene, options, pointsOnWalls(0.0f));
+    EXPECT_GT(cpu.report.walked, 20);
+    EXPECT_NEAR(gpu.report.walked, cpu.report.walked, 5) << "counts of rays follow from sums that differ in their last places";
+    EXPECT_NEAR(meanIrradiance(gpu.irradiance) / meanIrradiance(cpu.irradiance), 1.0, 0.02);
+}
+
 bool isWarned(const Light& light, const std::string& words) {
     return std::ranges::any_of(light.report.warnings, [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }

@@ -77,6 +77,12 @@ protected:
     const glm::vec3 half_{0.5f};
 };
 
+TEST_F(ObjMaterial, librariesMayStandInOneLineAndCommentsEndWithTheirs) {
+    write("first.mtl", "newmtl dark\nKd 0 0 0\n");
+    EXPECT_EQ(albedoOf("# from C:\\models\\\nmtllib first.mtl half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n"), half_);
+    EXPECT_EQ(albedoOf("mtllib half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n", "newmtl unused\nmap_Kd missing.png\nnewmtl half\nKd 0.5 0.5 0.5\n"), half_);
+}
+
 TEST_F(ObjMaterial, isFoundBehindAByteOrderMarkAndBlanksAndWithAnyLineEnds) {
     const std::string whole = "mtllib half.mtl\n" + kSquare + "usemtl half\nf 1 2 3\n";
     const auto with = [](std::string text, const std::string& end, const std::string& indent = "") {
