@@ -5,10 +5,9 @@
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/reference_run.h"
 #include "bindings/cli/scene_facts.h"
+#include "bindings/cli/stress/whole_run.h"
 #include "bindings/embree/task_pool.h"
 #include "bindings/embree/visible_points.h"
-#include "bindings/scene/scene_builder.h"
-#include "bindings/scene/shapes.h"
 #include "furnace/surface_points.h"
 
 namespace clv::test {
@@ -33,8 +32,6 @@ Light lightOf(const Scene& scene, const LightOptions& options, std::span<const R
     return light;
 }
 
-constexpr double kLampFlux = 4.0 * M_PI;  // W, a channel: the lamps of both furnaces
-
 TEST(Furnaces, oneBounceIsTheAlbedoTimesTheFluxOverTheArea) {
     const Scene sphere = makeBuiltinScene("white_sphere"), box = makeBuiltinScene("furnace_box");
     const LightOptions options = optionsFor(false, 2u << 20);
@@ -42,7 +39,7 @@ TEST(Furnaces, oneBounceIsTheAlbedoTimesTheFluxOverTheArea) {
     LightOptions fine = options;
     fine.resolution = 32;
     EXPECT_NEAR(meanIrradiance(lightOf(sphere, options, surfacePoints(sphere, 4096, 3)).irradiance) / 0.8, 1.0, 1e-3);
-    EXPECT_NEAR(meanIrradiance(lightOf(box, fine, surfacePoints(box, 8192, 3)).irradiance) / (0.5 * kLampFlux / surfaceArea(box)), 1.0, 3e-3);
+    EXPECT_NEAR(meanIrradiance(lightOf(box, fine, surfacePoints(box, 8192, 3)).irradiance) / (0.5 * kLampPower / surfaceArea(box)), 1.0, 3e-3);
 }
 
 TEST(Furnaces, allBouncesAreAGeometricSeries) {
@@ -52,48 +49,32 @@ TEST(Furnaces, allBouncesAreAGeometricSeries) {
     LightOptions fine = options;
     fine.resolution = 32;
     EXPECT_NEAR(meanIrradiance(lightOf(sphere, options, surfacePoints(sphere, 4096, 3)).irradiance) / 4.0, 1.0, 1e-3);
-    EXPECT_NEAR(meanIrradiance(lightOf(box, fine, surfacePoints(box, 8192, 3)).irradiance) / (kLampFlux / surfaceArea(box)), 1.0, 3e-3);
+    EXPECT_NEAR(meanIrradiance(lightOf(box, fine, surfacePoints(box, 8192, 3)).irradiance) / (kLampPower / surfaceArea(box)), 1.0, 3e-3);
 }
 
 // Closed rooms of 2 m beside each other, walls of one albedo each, and a lamp in each.
 Scene rooms(const std::vector<glm::vec3>& albedos, float lampOfTheSecond = 1.0f) {
     SceneBuilder builder("rooms");
-    const auto none = [](const glm::ivec3&) { return false; };
     for (std::size_t k = 0; k < albedos.size(); ++k) {
         const std::uint32_t wall = builder.addMaterial({"wall", albedos[k], -1});
         builder.beginNode("room");
-        const double x = 4.0 * double(k);
-        BlockGrid grid{{x - 1.0, x + 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, none, true};
-        addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return wall; });
-        builder.addLight("lamp " + std::to_string(k), makePointLight(glm::vec3(k == 0 ? 1.0f : lampOfTheSecond)), {x + 0.2, 0.1, -0.3});
+        const glm::dvec3 center(4.0 * double(k), 0.0, 0.0);
+        addRoom(builder, wall, 1.0, center);
+        builder.addLight("lamp " + std::to_string(k), makePointLight(glm::vec3(k == 0 ? 1.0f : lampOfTheSecond)), center + glm::dvec3(0.2, 0.1, -0.3));
     }
     return std::move(builder).finish("rooms");
 }
 
-// Evenly over the walls of a room around x, facing into it.
-std::vector<ReferencePoint> pointsOnWalls(float x) {
-    std::vector<ReferencePoint> points;
-    constexpr int kSteps = 12;
-    for (int wall = 0; wall < 6; ++wall) {
-        for (int k = 0; k < kSteps * kSteps; ++k) {
-            glm::vec3 p(0.0f), n(0.0f);
-            const int axis = wall / 2;
-            p[axis] = wall % 2 ? 1.0f : -1.0f, n[axis] = -p[axis];
-            p[(axis + 1) % 3] = (float(k % kSteps) + 0.5f) * 2.0f / kSteps - 1.0f;
-            p[(axis + 2) % 3] = (float(k / kSteps) + 0.5f) * 2.0f / kSteps - 1.0f;
-            points.push_back({p + glm::vec3(x, 0, 0), n});
-        }
-    }
-    return points;
-}
+// Of the room around x.
+std::vector<ReferencePoint> wallsAround(double x) { return pointsOnWalls(1.0, {x, 0.0, 0.0}); }
 
 TEST(Furnaces, everyChannelHasItsOwnSeries) {
     for (const glm::dvec3& albedo : {glm::dvec3(0.99, 0.9, 0.5), glm::dvec3(0.95, 0.93, 0.88), glm::dvec3(0.5, 0.99, 0.0)}) {
         const Scene scene = rooms({glm::vec3(albedo)});
         LightOptions options = optionsFor(true, 2u << 20);
         options.resolution = 16;
-        const auto light = lightOf(scene, options, pointsOnWalls(0.0f));
-        const glm::dvec3 exact = albedo / (1.0 - albedo) * kLampFlux / 24.0;
+        const auto light = lightOf(scene, options, wallsAround(0.0));
+        const glm::dvec3 exact = albedo / (1.0 - albedo) * kLampPower / 24.0;
         glm::dvec3 mean(0.0);
         for (const glm::vec3& e : light.irradiance) mean += glm::dvec3(e) / double(light.irradiance.size());
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], exact[c], 0.01 * exact[c]) << albedo[c];
@@ -105,8 +86,8 @@ TEST(Furnaces, everyRoomHasItsOwnSeries) {
     const Scene scene = rooms({glm::vec3(0.99f), glm::vec3(0.9f)});
     LightOptions options = optionsFor(true, 4u << 20);
     options.resolution = 16;
-    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, pointsOnWalls(0.0f)).irradiance) / (99.0 * kLampFlux / 24.0), 1.0, 0.03);
-    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, pointsOnWalls(4.0f)).irradiance) / (9.0 * kLampFlux / 24.0), 1.0, 0.03);
+    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, wallsAround(0.0)).irradiance) / (99.0 * kLampPower / 24.0), 1.0, 0.03);
+    EXPECT_NEAR(meanIrradiance(lightOf(scene, options, wallsAround(4.0)).irradiance) / (9.0 * kLampPower / 24.0), 1.0, 0.03);
 }
 
 // On a wide ground few of the samples of surfaces lie in the room, fewer than places that the walk of its light meets.
@@ -114,17 +95,16 @@ TEST(Furnaces, aSmallRoomOnAWideGroundIsTheSameOnAllBackEnds) {
     SceneBuilder builder("room");
     const std::uint32_t white = builder.addMaterial({"white", glm::vec3(0.95f), -1});
     builder.beginNode("room");
-    BlockGrid grid{{-1.0, 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, [](const glm::ivec3&) { return false; }, true};
-    addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return white; });
+    addRoom(builder, white);
     builder.beginNode("ground");
     builder.addQuad({-50, -2, 50}, {50, -2, 50}, {50, -2, -50}, {-50, -2, -50}, white);
     builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.2, 0.1, -0.3});
     const Scene scene = std::move(builder).finish("room");
     LightOptions options = optionsFor(true, 1u << 20);
     options.resolution = 64;
-    const Light cpu = lightOf(scene, options, pointsOnWalls(0.0f));
+    const Light cpu = lightOf(scene, options, wallsAround(0.0));
     options.backend.choice = "vulkan";
-    const Light gpu = lightOf(scene, options, pointsOnWalls(0.0f));
+    const Light gpu = lightOf(scene, options, wallsAround(0.0));
     EXPECT_GT(cpu.report.walked, 20);
     EXPECT_NEAR(gpu.report.walked, cpu.report.walked, 5) << "counts of rays follow from sums that differ in their last places";
     EXPECT_NEAR(meanIrradiance(gpu.irradiance) / meanIrradiance(cpu.irradiance), 1.0, 0.02);
@@ -137,7 +117,7 @@ bool isWarned(const Light& light, const std::string& words) {
 TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
     const LightOptions options = optionsFor(false, 64u << 10);
     const Scene dim = rooms({glm::vec3(0.5f), glm::vec3(0.5f)}, 1e-6f), like = rooms({glm::vec3(0.5f), glm::vec3(0.5f)}, 0.5f);
-    const auto inside = pointsOnWalls(0.0f);
+    const auto inside = wallsAround(0.0);
     EXPECT_TRUE(isWarned(lightOf(dim, options, inside), "light \"lamp 1\" sends so little"));
     EXPECT_TRUE(lightOf(like, options, inside).report.warnings.empty());
     SceneBuilder builder("solid");
@@ -146,15 +126,14 @@ TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
     builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), {0.0, 3.0, 0.0});
     const Light solid = lightOf(std::move(builder).finish("solid"), options, inside);
     EXPECT_TRUE(isWarned(solid, "100.0 % of the points face the backs of surfaces: what is enclosed by backs counts as solid"));
-    EXPECT_TRUE(isWarned(lightOf(like, options, pointsOnWalls(8.0f)), "864 of 864 points lie outside of the scene's bounds, by up to 4 m"));
+    EXPECT_TRUE(isWarned(lightOf(like, options, wallsAround(8.0)), "1536 of 1536 points lie outside of the scene's bounds, by up to 4 m"));
 }
 
 TEST(Sheets, aRoomWhoseWallsFaceOutwardsBesideOneWhoseFaceInwardsHasItsLight) {
     SceneBuilder builder("rooms");
     const std::uint32_t grey = builder.addMaterial({"grey", glm::vec3(0.5f), -1});
     builder.beginNode("inwards");
-    BlockGrid grid{{-1.0, 1.0}, {-1.0, 1.0}, {-1.0, 1.0}, [](const glm::ivec3&) { return false; }, true};
-    addBlocks(builder, grid, [=](const glm::ivec3&, const glm::ivec3&) { return grey; });
+    addRoom(builder, grey);
     builder.addLight("bright", makePointLight(glm::vec3(2.0f)), {0.2, 0.1, -0.3});
     builder.beginNode("outwards");
     addBox(builder, {4, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, grey);
@@ -163,8 +142,8 @@ TEST(Sheets, aRoomWhoseWallsFaceOutwardsBesideOneWhoseFaceInwardsHasItsLight) {
     for (bool all : {false, true}) {
         LightOptions options = optionsFor(all, 1u << 20);
         options.resolution = 16;
-        const double exact = (all ? 1.0 : 0.5) * kLampFlux / 24.0;
-        const Light inwards = lightOf(scene, options, pointsOnWalls(0.0f)), outwards = lightOf(scene, options, pointsOnWalls(4.0f));
+        const double exact = (all ? 1.0 : 0.5) * kLampPower / 24.0;
+        const Light inwards = lightOf(scene, options, wallsAround(0.0)), outwards = lightOf(scene, options, wallsAround(4.0));
         EXPECT_NEAR(meanIrradiance(inwards.irradiance), 2.0 * exact, 0.02 * 2.0 * exact);
         EXPECT_NEAR(meanIrradiance(outwards.irradiance), exact, 0.02 * exact);
         EXPECT_TRUE(isWarned(outwards, "33 % of the light falls on the backs of surfaces: nothing counts as solid"));

@@ -1,6 +1,7 @@
 // The core runs where an engine has floating-point traps switched on: no number of a frame is invalid, divided by zero or too large.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 
@@ -111,9 +112,13 @@ TEST(FloatingPointTraps, areNotSprungByRaysThatAreDeadOrAsBrightAsFloatsOrWhoseF
             }
             PartialVolume partial;
             partial.resize(level.slots.size(), layout, false);
-            const FloatingPointTraps traps;
-            inject(level, layout, kClvInjectTrackLength, rays, partial.target());
-            inject(level, layout, kClvInjectThesis, rays, partial.target());
+            {
+                const FloatingPointTraps traps;
+                inject(level, layout, kClvInjectTrackLength, rays, partial.target());
+                inject(level, layout, kClvInjectThesis, rays, partial.target());
+            }
+            EXPECT_TRUE(std::ranges::all_of(partial.deposits, [](float deposit) { return clvIsFinite(deposit); }));
+            EXPECT_GT(std::ranges::max(partial.deposits), 0.0f);
         }
     }
 }

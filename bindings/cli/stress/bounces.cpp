@@ -57,7 +57,7 @@ double series(double albedo, int bounces = 0) {
     return sum * kLampPower / kRoomArea;
 }
 
-// How fast it is: bounces of a slow series must take no more volumes than those of a fast one (9), nor more rays.
+// How fast it is: bounces of a slow series must take no more volumes than those of a fast one, nor more rays.
 void addPace(const FurnaceRun& run, std::vector<StressFigure>& figures) {
     figures.push_back({"times that a volume is filled", double(run.report.sweeps), 12.0});
     figures.push_back({"bounces that are walked", double(run.report.walked)});
