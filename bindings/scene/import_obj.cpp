@@ -51,14 +51,12 @@ void addMesh(const aiMesh& mesh, std::uint32_t material, const std::string& plac
     }
 }
 
-void addNode(const aiScene& scene, const aiNode& node, const std::string& file, SceneBuilder& builder) {
-    if (node.mNumMeshes > 0) builder.beginNode(node.mName.C_Str());
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-        const std::string material = scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();  // its index
-        addMesh(mesh, std::uint32_t(std::stoul(material)), fmt::format("{}: node '{}'", file, node.mName.C_Str()), builder);
-    }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) addNode(scene, *node.mChildren[i], file, builder);
+void addGroup(const aiScene& scene, const aiNode& group, const CheckedObj& obj, const std::string& file, SceneBuilder& builder) {
+    if (group.mNumMeshes == 0) return;
+    const ObjPart& part = obj.parts.at(std::stoul(group.mName.C_Str()));
+    builder.chooseNode(std::uint32_t(part.node));
+    const std::string place = fmt::format("{}: node '{}'", file, obj.nodes[part.node]);
+    for (unsigned i = 0; i < group.mNumMeshes; ++i) addMesh(*scene.mMeshes[group.mMeshes[i]], std::uint32_t(part.material), place, builder);
 }
 
 }  // namespace
@@ -73,7 +71,8 @@ Scene importObj(const std::string& file) {
     for (const std::string& feature : obj.ignored) builder.ignore(feature);
     std::map<std::string, int> textures;
     for (const ObjMaterial& material : obj.materials) builder.addMaterial(readMaterial(material, file, builder, textures));
-    addNode(*scene, *scene->mRootNode, file, builder);
+    for (const std::string& node : obj.nodes) builder.beginNode(node);
+    for (unsigned i = 0; i < scene->mRootNode->mNumChildren; ++i) addGroup(*scene, *scene->mRootNode->mChildren[i], obj, file, builder);
     return std::move(builder).finish(file);
 }
 

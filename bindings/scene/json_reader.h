@@ -1,7 +1,6 @@
 // Reads JSON with the place of every value at hand, so that an error says where it is and what was expected.
 #pragma once
 #include <cstdint>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -92,23 +91,6 @@ private:
 };
 
 // Throws InputError that says at which byte the text stops being JSON, or which key an object has twice.
-inline nlohmann::json parseJson(const std::string& file, std::span<const std::uint8_t> text) {
-    using Event = nlohmann::json::parse_event_t;
-    std::vector<std::set<std::string>> keys;  // of the objects that are open
-    const auto checkKey = [&](int, Event event, const nlohmann::json& value) {
-        if (event == Event::object_start) keys.emplace_back();
-        if (event == Event::object_end) keys.pop_back();
-        if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
-            throw InputError(fmt::format("{}: expected '{}' once in its object", file, value.get<std::string>()));
-        return true;
-    };
-    try {
-        return nlohmann::json::parse(text.begin(), text.end(), checkKey);
-    } catch (const nlohmann::json::parse_error& error) {
-        throw InputError(fmt::format("{}: byte {}: expected well-formed JSON", file, error.byte));
-    } catch (const nlohmann::json::out_of_range&) {
-        throw InputError(fmt::format("{}: expected JSON whose numbers fit into a double", file));
-    }
-}
+nlohmann::json parseJson(const std::string& file, std::span<const std::uint8_t> text);
 
 }  // namespace clv

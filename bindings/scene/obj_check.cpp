@@ -5,6 +5,8 @@
 #include <charconv>
 #include <filesystem>
 #include <iterator>
+#include <map>
+#include <optional>
 
 #include "bindings/scene/file_bytes.h"
 #include "bindings/scene/scene.h"
@@ -18,6 +20,8 @@ void checkVertex(const ObjLine& line, std::istringstream& words) {
 }
 
 using Corner = std::array<long, 3>;  // of a vertex, texture coordinates and a normal, from 1; 0 where there is none
+constexpr std::size_t kMostCorners = 16384;  // of a face: assimp takes time in their square to cut it
+constexpr const char* kUnnamed = "default";  // the group of faces that stand in none
 constexpr const char* kNames[] = {"vertices", "texture coordinates", "normals"};
 
 // A corner is v, v/vt, v//vn or v/vt/vn; each counts from 1, or backwards from -1.
@@ -44,7 +48,7 @@ public:
 
     CheckedObj run() && {
         forEachObjLine(file_, [&](const ObjLine& line, const std::string& keyword, std::istringstream& words) { check(line, keyword, words); });
-        if (!hasFaces_) throw InputError(file_ + ": no faces; expected at least one triangle");
+        if (checked_.parts.empty()) throw InputError(file_ + ": no faces; expected at least one triangle");
         checked_.materials = materials_.all();
         checked_.warnings = materials_.warnings();
         return std::move(checked_);
@@ -54,10 +58,8 @@ private:
     void check(const ObjLine& line, const std::string& keyword, std::istringstream& words);
     void addLibraries(const ObjLine& line, const std::string& names);
     void addFace(const ObjLine& line, std::istringstream& words);
-    void useMaterial(std::size_t index) {
-        isMaterialKnown_ = true;
-        fmt::format_to(std::back_inserter(checked_.text), "usemtl {}\n", index);
-    }
+    // Begins a group of the text where the part is another one than that of the face before.
+    void choosePart();
     void ignore(const std::string& feature) {
         if (std::ranges::find(checked_.ignored, feature) == checked_.ignored.end()) checked_.ignored.push_back(feature);
     }
@@ -66,7 +68,10 @@ private:
     CheckedObj checked_;
     ObjMaterials materials_;
     Corner counts_{};
-    bool hasFaces_ = false, isMaterialKnown_ = false;
+    std::string node_;
+    std::optional<std::size_t> material_, part_;
+    std::map<std::string, std::size_t> nodes_;
+    std::map<ObjPart, std::size_t> parts_;
 };
 
 void ObjCheck::check(const ObjLine& line, const std::string& keyword, std::istringstream& words) {
@@ -81,7 +86,9 @@ void ObjCheck::check(const ObjLine& line, const std::string& keyword, std::istri
     } else if (keyword == "f" || keyword == "fo") {
         addFace(line, words);
     } else if (keyword == "usemtl") {
-        useMaterial(materials_.use(line, restOf(words)));
+        material_ = materials_.use(line, restOf(words));
+    } else if (keyword == "o" || keyword == "g") {
+        node_ = restOf(words);
     } else if (keyword == "mtllib") {
         addLibraries(line, restOf(words));
     } else if (keyword == "l" || keyword == "p") {
@@ -89,7 +96,7 @@ void ObjCheck::check(const ObjLine& line, const std::string& keyword, std::istri
     } else if (keyword == "curv" || keyword == "surf") {
         ignore("free-form curves and surfaces");
     }
-    if (keyword == "v" || keyword == "vt" || keyword == "o" || keyword == "g") checked_.text += words.str() + '\n';
+    if (keyword == "v" || keyword == "vt") checked_.text += words.str() + '\n';
 }
 
 // A name, which may have blanks in it, or several without.
@@ -108,18 +115,28 @@ void ObjCheck::addFace(const ObjLine& line, std::istringstream& words) {
     std::vector<Corner> corners;
     for (std::string word; words >> word;) corners.push_back(readCorner(line, word, counts_));
     if (corners.size() < 3) line.fail("a face with three corners or more");
+    if (corners.size() > kMostCorners) line.fail(fmt::format("a face with at most {} corners", kMostCorners));
     const bool hasUvs = corners[0][1] != 0;
     if (std::ranges::any_of(corners, [&](const Corner& corner) { return (corner[1] != 0) != hasUvs; }))
         line.fail("texture coordinates at all corners, or at none");
-    // Faces without a material of their own would take on one that follows.
-    if (!isMaterialKnown_) useMaterial(materials_.useNone(line));
-    hasFaces_ = true;
+    if (!material_) material_ = materials_.useNone(line);
+    choosePart();
     checked_.text += 'f';
     for (const Corner& corner : corners) {
         fmt::format_to(std::back_inserter(checked_.text), " {}", corner[0]);
         if (hasUvs) fmt::format_to(std::back_inserter(checked_.text), "/{}", corner[1]);
     }
     checked_.text += '\n';
+}
+
+void ObjCheck::choosePart() {
+    const auto [node, isNewNode] = nodes_.try_emplace(node_, checked_.nodes.size());
+    if (isNewNode) checked_.nodes.push_back(node_.empty() ? kUnnamed : node_);
+    const ObjPart wanted{node->second, *material_};
+    const auto [part, isNew] = parts_.try_emplace(wanted, checked_.parts.size());
+    if (isNew) checked_.parts.push_back(wanted);
+    if (part_ != part->second) fmt::format_to(std::back_inserter(checked_.text), "g {}\n", part->second);
+    part_ = part->second;
 }
 
 }  // namespace

@@ -50,7 +50,10 @@ int SceneBuilder::addTexture(Texture texture) {
     return int(scene_.textures.size() - 1);
 }
 
-void SceneBuilder::beginNode(std::string name) { scene_.nodeNames.push_back(std::move(name)); }
+void SceneBuilder::beginNode(std::string name) {
+    node_ = std::uint32_t(scene_.nodeNames.size());
+    scene_.nodeNames.push_back(std::move(name));
+}
 
 std::uint32_t SceneBuilder::addVertex(const glm::dvec3& position, const glm::vec2& uv) {
     positionsWorld_.push_back(position);
@@ -61,7 +64,7 @@ std::uint32_t SceneBuilder::addVertex(const glm::dvec3& position, const glm::vec
 void SceneBuilder::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t material) {
     scene_.triangles.push_back({a, b, c});
     scene_.materialOf.push_back(material);
-    scene_.nodeOf.push_back(std::uint32_t(scene_.nodeNames.size() - 1));
+    scene_.nodeOf.push_back(node_);
 }
 
 void SceneBuilder::addQuad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,

@@ -18,6 +18,8 @@ public:
     int addTexture(Texture texture);
     // Triangles added from here on belong to this node.
     void beginNode(std::string name);
+    // Or to one that was begun before; its index in scene.nodeNames.
+    void chooseNode(std::uint32_t node) { node_ = node; }
     // World space, m.
     std::uint32_t addVertex(const glm::dvec3& position, const glm::vec2& uv = glm::vec2(0.0f));
     std::uint32_t vertexCount() const { return std::uint32_t(positionsWorld_.size()); }
@@ -47,6 +49,7 @@ private:
     void warnOfLostDetail(const std::string& source);
 
     Scene scene_;
+    std::uint32_t node_ = 0;
     std::vector<glm::dvec3> positionsWorld_;
     std::vector<glm::dvec3> lightPositionsWorld_;
     std::vector<glm::dvec3> cameraPositionsWorld_;

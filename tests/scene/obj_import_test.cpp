@@ -40,9 +40,32 @@ TEST_F(ObjImport, readsFacesOfThousandsOfCorners) {
     EXPECT_NEAR(area.z, glm::pi<double>(), 1e-4);
 }
 
+TEST_F(ObjImport, refusesFacesOfCornersWithoutEnd) {
+    std::string face = "f";
+    for (int i = 0; i <= 16384; ++i) face += fmt::format(" {}", i % 4 + 1);
+    const std::string path = write("disc.obj", kSquare + face + "\n");
+    EXPECT_EQ(errorOf(path), path + ":5: expected a face with at most 16384 corners");
+}
+
 TEST_F(ObjImport, saysWhatItIgnores) {
     const Scene scene = loadScene(write("square.obj", kSquare + "f 1 2 3\nl 1 2\np 1\ncurv 0 1 1 2\ns off\n"));
     EXPECT_EQ(scene.ignored, (std::vector<std::string>{"points and lines", "free-form curves and surfaces"}));
+}
+
+TEST_F(ObjImport, facesInNoGroupHaveANodeOfTheirOwn) {
+    const Scene scene = loadScene(write("nodes.obj", kSquare + "f 1 2 3\no box\nf 1 3 4\ng\nf 2 3 4\n"));
+    EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"default", "box"}));
+    EXPECT_EQ(scene.nodeOf, (std::vector<std::uint32_t>{0, 1, 0}));
+}
+
+TEST_F(ObjImport, anObjectOrGroupGoesOnWhereItsNameComesAgain) {
+    for (const std::string keyword : {"o", "g"}) {
+        const auto begin = [&](const char* name) { return keyword + " " + name + "\n"; };
+        const Scene scene = loadScene(write("nodes.obj", kSquare + begin("left wing") + "f 1 2 3\n" + begin("left tail") + "f 1 3 4\n" +
+                                                             begin("none") + begin("left wing") + "f 2 3 4\n"));
+        EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"left wing", "left tail"})) << keyword;
+        EXPECT_EQ(scene.nodeOf, (std::vector<std::uint32_t>{0, 1, 0})) << keyword;
+    }
 }
 
 TEST_F(ObjImport, countsNegativeIndicesBackwards) {
@@ -146,7 +169,7 @@ TEST_F(ObjMaterial, holdsFromItsLineOnWhateverElseLiesBetween) {
     std::vector<float> albedos;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) albedos.push_back(scene.albedo(t, 0.3f, 0.3f).x);
     EXPECT_EQ(albedos, (std::vector<float>{0.8f, 0.5f, 0.5f, 0.5f, 0.1f, 0.3f}));
-    EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"defaultobject", "box", "side"}));
+    EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"default", "box", "side"}));
 }
 
 TEST_F(ObjMaterial, thatIsNotSaidIsAWarningWithItsLine) {
