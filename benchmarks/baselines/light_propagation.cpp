@@ -159,13 +159,13 @@ private:
     void findBlockers() {
         const SurfaceSamples surfaces = sampleSurfaces(world_->scene, kBlockers * settings_.resolution * settings_.resolution, 1, world_->parallelFor);
         Planes blocked(volume_.resolution + 1, kBands);
-        const float share = surfaces.area / (volume_.cellSize * volume_.cellSize);
         const ivec3 lastCorner = volume_.resolution;
-        for (const ClvReceiver& surfel : surfaces.receivers) {
+        for (std::size_t k = 0; k < surfaces.receivers.size(); ++k) {
+            const ClvReceiver& surfel = surfaces.receivers[k];
             const vec3 place = (surfel.position - volume_.origin) / volume_.cellSize;
             const ivec3 corner = clamp(ivec3(floor(place + 0.5f)), ivec3(0), lastCorner);
-            const vec4 lobe = cosineLobe(-surfel.normal) * share;
-            for (int k = 0; k < kBands; ++k) blocked.plane(k)[blocked.index(corner)] += lobe[k];
+            const vec4 lobe = cosineLobe(-surfel.normal) * (surfaces.area[k] / (volume_.cellSize * volume_.cellSize));
+            for (int band = 0; band < kBands; ++band) blocked.plane(band)[blocked.index(corner)] += lobe[band];
         }
         open_ = Planes(volume_.resolution, kLinks + 1);
         std::fill_n(open_.plane(kLinks), open_.index(volume_.resolution), 1.0f);

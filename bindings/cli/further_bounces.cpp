@@ -8,6 +8,7 @@
 #include "bindings/cli/light_walk.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/scene_facts.h"
+#include "clv/cpu/resolution.h"
 
 namespace clv {
 namespace {
@@ -21,6 +22,7 @@ constexpr std::size_t kFewestToWalk = 128;         // rays
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
+constexpr float kWidestCell = 1.0f;  // times the distance from which points see surfaces
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
@@ -99,7 +101,10 @@ private:
     // that keeps its noise as low.
     std::pair<int, Level> chooseLevel(std::span<const LitLevel> first) {
         if (!job_.automatic) return {first[0].resolution, first[0].light->level()};
-        const int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
+        int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
+        for (const int finer : kResolutions) {
+            if (finer > resolution && volumeOver(job_.scene, resolution, job_.options).cellSize > kWidestCell * job_.sight) resolution = finer;
+        }
         return {resolution, job_.makeLevel(resolution)};
     }
 
@@ -144,11 +149,11 @@ private:
             addIrradiance(source, &Lookups::surfaces, job_.layout, surfaces.receivers, 1.0f, job_.parallelFor, irradiance);
             emitters_.assign((irradiance.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
             glm::dvec3 sum(0.0);
-            for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces.albedo[k] * irradiance[k]) * double(surfaces.area);
+            for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces.albedo[k] * irradiance[k]) * double(surfaces.area[k]);
             vec3 correction(0.0f);
             for (int c = 0; c < 3; ++c) correction[c] = sum[c] > 0.0 ? float(power_[c] / sum[c]) : 0.0f;
             for (std::size_t k = 0; k < irradiance.size(); ++k) {
-                const vec3 flux = surfaces.albedo[k] * irradiance[k] * (correction * surfaces.area);
+                const vec3 flux = surfaces.albedo[k] * irradiance[k] * (correction * surfaces.area[k]);
                 emitters_[k] = {surfaces.receivers[k].position, 0.0f, surfaces.receivers[k].normal, 1u, flux, 0.0f};
                 any = any || flux.x + flux.y + flux.z > 0.0f;
             }

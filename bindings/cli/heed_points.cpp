@@ -45,7 +45,7 @@ Facing facing(const EmbreeScene& scene, std::span<const ClvReceiver> points, con
         if (seen.backs < kMostlyBacks || seen.backs <= 3 * seen.fronts) return;
         ++backs;
         bool lit = false;
-        seenFaces(scene, point, clvHash(uint(k)), [&](const vec3& position, const vec3& normal) { lit = lit || directIrradiance(scene, position, normal) != vec3(0.0f); });
+        seenFaces(scene, point, clvHash(uint(k)), [&](const vec3& position, const ClvHit& hit) { lit = lit || directIrradiance(scene, position, hit.normal) != vec3(0.0f); });
         litBacks += lit;
     });
     return {double(backs) / double(looks), double(litBacks) / double(looks)};

@@ -1,9 +1,14 @@
 #include "bindings/cli/light_job.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include "bindings/cli/cpu_lighting.h"
 #include "bindings/cli/heed_lights.h"
 #include "bindings/cli/heed_points.h"
 #include "bindings/cli/scene_facts.h"
+#include "bindings/cli/surroundings.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
 #include "bindings/embree/visible_points.h"
@@ -16,6 +21,8 @@ namespace {
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
+constexpr double kSightSamples = 6.0;              // distances between evenly spread ones, below which points look from near
+constexpr float kWideCell = 1.25f;                 // times the distance from which points see surfaces: too wide to tell what they see apart
 
 std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
     std::vector<ClvReceiver> receivers;
@@ -49,7 +56,7 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
             proxy_.emplace(*proxyScene_);
         }
         heedScene();
-        if (needs.feedback) surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor);
+        if (needs.feedback) chooseSurfaces();
         if (automatic) chooseJudges();
         const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
         if (options.backend.choice == "vulkan") {
@@ -77,6 +84,18 @@ void LightJob::heedScene() {
     const PointHeed pointHeed = heedPoints(*embree_, points, heed.sheets, parallelFor);
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
     embree_->setSolids(!pointHeed.sheets);
+    if (points.empty()) return;
+    sight = nearSight(*embree_, points, parallelFor);
+    const float finest = volumeOver(scene, finestResolution(), options).cellSize;
+    if (grids.empty() && kWideCell * sight < finest)
+        report.warnings.push_back(fmt::format("points see surfaces from {:.2g} m, where cells are {:.2g} m wide: their light is inexact, or missing; a larger --resolution or less of a scene has smaller cells", sight, finest));
+}
+
+// Evenly spread, and where the points see little of a wide scene, half of them there.
+void LightJob::chooseSurfaces() {
+    std::vector<std::uint32_t> views;
+    if (sight < kSightSamples * std::sqrt(surfaceArea(embree_->scene()) / double(kSurfaceSamples))) views = viewsOf(*embree_, points, parallelFor);
+    surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor, views);
 }
 
 // Some of the points, and with few of them some that the cameras see.
@@ -124,10 +143,11 @@ LitLevel LightJob::makeLit(Lighting& lighting, int resolution, Level level, std:
     return lit;
 }
 
+int LightJob::finestResolution() const { return automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution; }
+
 LightingSettings LightJob::lightingSettings(int halves, std::uint64_t rays, std::uint32_t stream) const {
-    const int finest = automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution;
     return {.layout = layout, .halves = halves, .rays = rays, .seed = clvHashCombine(seed, stream), .keepHits = needs.feedback,
-            .finest = volumeOver(scene, finest, options)};
+            .finest = volumeOver(scene, finestResolution(), options)};
 }
 
 std::unique_ptr<Lighting> LightJob::makeLighting(const LightingSettings& settings) {

@@ -45,11 +45,14 @@ struct LightJob {
     const DepositLayout layout;
     std::vector<ClvReceiver> points, judges;
     SurfaceSamples surfaces;  // that send the light of further bounces
+    float sight = kClvFar;    // m, from which points see surfaces: nearSight()
     StageClock clock;
     PipelineReport report;
 
 private:
+    int finestResolution() const;
     void heedScene();
+    void chooseSurfaces();
     void chooseJudges();
 
     std::optional<EmbreeScene> embree_, proxy_;

@@ -6,7 +6,7 @@
 namespace clv {
 
 SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed,
-                    const std::function<void(const glm::vec3& position, const glm::vec3& normal)>& onHit) {
+                    const std::function<void(const glm::vec3& position, const ClvHit& hit)>& onHit) {
     SeenFaces seen;
     const glm::vec3 origin = receiver.position + receiver.normal * scene.surfaceOffset();
     for (uint k = 0; k < uint(kSeenRays); ++k) {
@@ -15,7 +15,7 @@ SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::
         const ClvHit hit = scene.hit(origin, direction, kClvFar);
         if (hit.primitive == kClvNoPrimitive) continue;
         (dot(windingNormal(scene.scene(), hit.primitive), direction) < 0.0f ? seen.fronts : seen.backs)++;
-        if (onHit) onHit(origin + direction * hit.distance, hit.normal);
+        if (onHit) onHit(origin + direction * hit.distance, hit);
     }
     return seen;
 }

@@ -13,9 +13,9 @@ struct SeenFaces {
     int fronts = 0, backs = 0;  // of kSeenRays rays, cosine-weighted over the receiver's hemisphere; the others leave the scene
 };
 
-// onHit: called with the position (m) of each hit, and its normal on the side that is seen.
+// onHit: called with the position of each hit, m.
 SeenFaces seenFaces(const EmbreeScene& scene, const ClvReceiver& receiver, std::uint32_t seed,
-                    const std::function<void(const glm::vec3& position, const glm::vec3& normal)>& onHit = {});
+                    const std::function<void(const glm::vec3& position, const ClvHit& hit)>& onHit = {});
 
 // Right-handed normal of a triangle, m^2, twice its area long: on its front.
 glm::vec3 windingNormal(const Scene& scene, std::uint32_t triangle);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bindings/embree/seen_faces.h"
 #include "clv/math/sobol.h"
@@ -28,28 +29,47 @@ std::uint64_t placeOf(const vec3& position, const vec3& normal, const Bounds& bo
     return facing << 30 | spread(std::uint32_t(at.x)) | spread(std::uint32_t(at.y)) << 1 | spread(std::uint32_t(at.z)) << 2;
 }
 
+std::vector<double> areasOf(const Scene& scene) {
+    std::vector<double> areas(scene.triangles.size());
+    for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = 0.5 * double(glm::length(windingNormal(scene, std::uint32_t(t))));
+    return areas;
+}
+
 }  // namespace
 
-SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor) {
+double surfaceArea(const Scene& scene) {
+    const std::vector<double> areas = areasOf(scene);
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
+                              std::span<const std::uint32_t> views) {
     const Scene& scene = embree.scene();
-    std::vector<double> areas(scene.triangles.size());
-    double total = 0.0;
-    for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = total += 0.5 * double(glm::length(windingNormal(scene, std::uint32_t(t))));
+    const std::vector<double> areas = areasOf(scene);
+    // m^2 of points that lie evenly: more where there are more points on as much area.
+    std::vector<double> weights = areas;
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0), viewed = std::accumulate(views.begin(), views.end(), 0.0);
+    for (std::size_t t = 0; t < views.size(); ++t) weights[t] = 0.5 * (areas[t] + area * double(views[t]) / viewed);
+    std::vector<double> ends(weights.size());
+    std::inclusive_scan(weights.begin(), weights.end(), ends.begin());
+    const double total = ends.back();
     SurfaceSamples all;
     all.receivers.resize(2 * count);
     all.albedo.resize(count);
+    all.area.resize(count);
     std::vector<std::uint8_t> kept(2 * count);
     parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
         for (std::size_t k = piece * kPiece; k < std::min(count, (piece + 1) * kPiece); ++k) {
             const vec4 u = clvSobol4(uint(k), seed);
             const double at = (double(k) + u.x) / double(count) * total;
-            const std::size_t t = std::min<std::size_t>(std::lower_bound(areas.begin(), areas.end(), at) - areas.begin(), areas.size() - 1);
+            const std::size_t t = std::min<std::size_t>(std::lower_bound(ends.begin(), ends.end(), at) - ends.begin(), ends.size() - 1);
             const glm::uvec3& c = scene.triangles[t];
             // Uniform in a triangle: Turk 1990.
             const float root = std::sqrt(u.y), v1 = root * (1.0f - u.z), v2 = root * u.z;
             const vec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
             const vec3 normal = glm::normalize(windingNormal(scene, std::uint32_t(t)));
             all.albedo[k] = scene.albedo(std::uint32_t(t), v1, v2);
+            all.area[k] = float(total / double(count) * (areas[t] / weights[t]));
             for (int side = 0; side < 2; ++side) {
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};
@@ -59,7 +79,6 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
         }
     });
     SurfaceSamples samples;
-    samples.area = float(total / double(count));
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     for (std::size_t k = 0; k < 2 * count; ++k) {
         if (kept[k]) order.emplace_back(placeOf(all.receivers[k].position, all.receivers[k].normal, scene.bounds), k);
@@ -68,6 +87,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
     for (const auto& [place, k] : order) {
         samples.receivers.push_back(all.receivers[k]);
         samples.albedo.push_back(all.albedo[k / 2]);
+        samples.area.push_back(all.area[k / 2]);
     }
     return samples;
 }

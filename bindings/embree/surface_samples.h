@@ -1,6 +1,7 @@
-// Points spread evenly over all surfaces, on each side that light can reach: where a volume's light is read to send it on.
+// Points spread over all surfaces, on each side that light can reach: where a volume's light is read to send it on.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bindings/embree/embree_scene.h"
@@ -13,13 +14,18 @@ namespace clv {
 struct SurfaceSamples {
     std::vector<ClvReceiver> receivers;
     std::vector<glm::vec3> albedo;       // linear RGB, a receiver each
-    float area = 0.0f;                   // m^2 that each receiver stands for
+    std::vector<float> area;             // m^2 that each receiver stands for
 };
 
-// `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. A side
+// m^2, each triangle once.
+double surfaceArea(const Scene& scene);
+
+// `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. Where there are
+// `views`, a number a triangle, not all 0, half of the points are in proportion to them instead, evenly over each triangle. A side
 // is left out when it sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then. Neighbours among the receivers
 // face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
-SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor);
+SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
+                              std::span<const std::uint32_t> views = {});
 
 // In the order of those receivers: by which way they face, then by place.
 void sortAlongSurfaces(std::vector<ClvRsmTexel>& texels, const Bounds& bounds);

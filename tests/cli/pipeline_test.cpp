@@ -129,6 +129,15 @@ TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
     EXPECT_TRUE(isWarned(lightOf(like, options, wallsAround(8.0)), "1536 of 1536 points lie outside of the scene's bounds, by up to 4 m"));
 }
 
+TEST(Warnings, sayWhereCellsAreWiderThanWhatPointsSee) {
+    const Scene room = rooms({glm::vec3(0.5f)});
+    LightOptions options = optionsFor(false, 1024);
+    for (const auto& [resolution, isWide] : {std::pair(1, true), std::pair(4, false)}) {
+        options.resolution = resolution;
+        EXPECT_EQ(isWarned(lightOf(room, options, wallsAround(0.0)), "where cells are 2 m wide"), isWide) << resolution;
+    }
+}
+
 TEST(Sheets, aRoomWhoseWallsFaceOutwardsBesideOneWhoseFaceInwardsHasItsLight) {
     SceneBuilder builder("rooms");
     const std::uint32_t grey = builder.addMaterial({"grey", glm::vec3(0.5f), -1});

@@ -33,7 +33,7 @@ Scene insideOfABox(bool withSheet = false) {
 
 TEST(SurfaceSamples, aClosedRoomIsSampledInsideOnlyAndInProportionToArea) {
     const SurfaceSamples samples = samplesOf(insideOfABox());
-    EXPECT_FLOAT_EQ(samples.area, 22.0f / kCount);
+    EXPECT_FLOAT_EQ(samples.area[0], 22.0f / kCount);
     ASSERT_EQ(samples.receivers.size(), samples.albedo.size());
     EXPECT_NEAR(double(samples.receivers.size()), double(kCount), 0.002 * kCount);
     std::size_t onFloor = 0;
@@ -44,7 +44,7 @@ TEST(SurfaceSamples, aClosedRoomIsSampledInsideOnlyAndInProportionToArea) {
         EXPECT_EQ(red, r.normal.y > 0.5f);
         onFloor += red;
     }
-    EXPECT_NEAR(double(onFloor) * samples.area, 6.0, 2.0 * samples.area);
+    EXPECT_NEAR(double(onFloor) * samples.area[0], 6.0, 2.0 * samples.area[0]);
 }
 
 TEST(SurfaceSamples, areInAnOrderInWhichNeighboursAreNear) {
@@ -52,7 +52,7 @@ TEST(SurfaceSamples, areInAnOrderInWhichNeighboursAreNear) {
     std::size_t near = 0, turns = 0;
     for (std::size_t i = 1; i < samples.receivers.size(); ++i) {
         const ClvReceiver &a = samples.receivers[i - 1], &b = samples.receivers[i];
-        near += glm::length(a.position - b.position) < 3.0f * std::sqrt(samples.area);
+        near += glm::length(a.position - b.position) < 3.0f * std::sqrt(samples.area[0]);
         turns += glm::dot(a.normal, b.normal) < 0.5f;
     }
     EXPECT_EQ(turns, 5u) << "each of six faces is left once";
@@ -78,9 +78,25 @@ TEST(SurfaceSamples, aSheetInARoomIsSampledOnBothSides) {
         if (std::abs(r.position.y - 0.5f) > 1e-5f || std::abs(r.normal.y) < 0.5f) continue;
         (r.normal.y > 0.0f ? up : down)++;
     }
-    EXPECT_NEAR(double(up) * after.area, 0.5, 2.0 * after.area);
+    EXPECT_NEAR(double(up) * after.area[0], 0.5, 2.0 * after.area[0]);
     EXPECT_EQ(up, down);
-    EXPECT_FLOAT_EQ(after.area - before.area, 0.5f / kCount);
+    EXPECT_FLOAT_EQ(after.area[0] - before.area[0], 0.5f / kCount);
+}
+
+TEST(SurfaceSamples, halfOfThemLieWhereViewsFallAndStandForLessAreaThere) {
+    const Scene scene = insideOfABox();
+    std::vector<std::uint32_t> views(scene.triangles.size(), 0);
+    views[2] = 3, views[3] = 1;  // the ceiling's halves, of 3 m^2 each
+    const SurfaceSamples samples = sampleSurfaces(EmbreeScene(scene), kCount, 1, tbbParallelFor(2), views);
+    double area = 0.0, ceiling = 0.0;
+    std::size_t onCeiling = 0;
+    for (std::size_t i = 0; i < samples.receivers.size(); ++i) {
+        const bool above = samples.receivers[i].normal.y < -0.5f;
+        area += samples.area[i], ceiling += above ? samples.area[i] : 0.0, onCeiling += above;
+    }
+    EXPECT_NEAR(double(onCeiling), (0.5 + 0.5 * 6.0 / 22.0) * kCount, 0.005 * kCount);
+    EXPECT_NEAR(area, 22.0, 0.05);
+    EXPECT_NEAR(ceiling, 6.0, 0.05);
 }
 
 TEST(SurfaceSamples, areTheSameForASeedWhateverTheThreads) {

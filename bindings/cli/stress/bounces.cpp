@@ -24,7 +24,8 @@ struct FurnaceRun {
     PipelineReport report;
     double raysOfBudget = 0.0;
 };
-FurnaceRun lightRooms(std::span<const ClosedRoom> rooms, const StressSettings& settings) {
+// ground: half the width of one below the rooms, m; at a resolution that is chosen then. 0: none.
+FurnaceRun lightRooms(std::span<const ClosedRoom> rooms, const StressSettings& settings, double ground = 0.0) {
     SceneBuilder builder("furnace");
     std::vector<ReferencePoint> points;
     for (const ClosedRoom& room : rooms) {
@@ -34,9 +35,14 @@ FurnaceRun lightRooms(std::span<const ClosedRoom> rooms, const StressSettings& s
         builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), room.center + glm::dvec3(0.2, 0.1, -0.3));
         for (const ReferencePoint& point : pointsOnWalls(1.0, room.center)) points.push_back(point);
     }
+    if (ground > 0.0) {
+        builder.beginNode("ground");
+        builder.addQuad({-ground, -2, ground}, {ground, -2, ground}, {ground, -2, -ground}, {-ground, -2, -ground}, 0);
+    }
     const Scene scene = std::move(builder).finish("furnace");
     for (ReferencePoint& point : points) point.position -= glm::vec3(scene.anchor);
-    const LightOptions options = smallRun(settings.exhaustive ? 16 << 20 : 1 << 20, true);
+    LightOptions options = smallRun(settings.exhaustive ? 16 << 20 : 1 << 20, true);
+    if (ground > 0.0) options.resolution = 0;
     WholeRun run = wholeRun(scene, points, options, settings);
     FurnaceRun furnace{{}, std::move(run.report), 0.0};
     furnace.raysOfBudget = double(furnace.report.rays) / double(options.rays);
@@ -116,6 +122,20 @@ std::vector<StressFigure> twoRooms(const StressSettings& settings) {
     return figures;
 }
 
+// Few of evenly spread samples of surfaces are in the room, and it is a few cells wide, or less than one.
+std::vector<StressFigure> onWideGround(const StressSettings& settings) {
+    const ClosedRoom room{glm::dvec3(0.95)};
+    std::vector<StressFigure> figures;
+    for (double width : {60.0, 200.0, 600.0}) {
+        const FurnaceRun run = lightRooms({&room, 1}, settings, 0.5 * width);
+        figures.push_back({fmt::format("bias on a ground of {:g} m, %", width), percentOff(run.mean[0].x, series(0.95)), 3.0});
+    }
+    const FurnaceRun lost = lightRooms({&room, 1}, settings, 3000.0);
+    figures.push_back({"bias on a ground of 6 km, %", percentOff(lost.mean[0].x, series(0.95))});
+    figures.push_back({"warnings that cells are too wide for it, missing", lost.report.warnings.empty() ? 1.0 : 0.0, 0.0});
+    return figures;
+}
+
 }  // namespace
 
 std::vector<StressCase> bounceCases() {
@@ -126,6 +146,7 @@ std::vector<StressCase> bounceCases() {
     }
     cases.push_back({"bounces", "a closed room of albedo 0.99, 0.9 and 0.5", "each channel reaches its own series", coloured});
     cases.push_back({"bounces", "closed rooms of albedo 0.99 and 0.9 in one scene", "each room reaches its own series", twoRooms});
+    cases.push_back({"bounces", "a closed room of 2 m on a ground of 60 m to 6 km", "all bounces reach the closed form, or cells are said to be too wide", onWideGround});
     return cases;
 }
 
