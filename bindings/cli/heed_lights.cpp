@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bindings/cli/surroundings.h"
 #include "bindings/embree/light_check.h"
 #include "bindings/embree/light_maps.h"
 #include "clv/plan/largest_flux.h"
@@ -26,6 +27,22 @@ void heedDimLights(const LightCheck& check, const std::vector<NamedLight>& light
 }
 
 }  // namespace
+
+std::vector<std::string> heedNearLights(const EmbreeScene& scene, std::span<const ReferencePoint> points, double paths, const ParallelFor& parallelFor) {
+    constexpr double kFewPaths = 10.0;
+    const LightCheck check = checkLights(scene, parallelFor);
+    const float sight = nearSight(scene, receiversOf(points), parallelFor);
+    std::vector<std::string> warnings;
+    for (std::size_t k = 0; k < check.reach.size(); ++k) {
+        // A lamp on a surface lights what it sees, and no spot.
+        if (!(check.shares[k] > 0.0) || check.reach[k] <= 2.0f * scene.surfaceOffset()) continue;
+        const double half = 0.5 * double(check.reach[k]) / double(sight);
+        if (paths * half * half < kFewPaths)
+            warnings.push_back(fmt::format("light \"{}\" sends a quarter of its light to surfaces within {:.2g} m: about {:.1g} of {:g} paths meet them, and the standard error does not show what is missed",
+                                           scene.scene().lights[k].name, check.reach[k], paths * half * half, paths));
+    }
+    return warnings;
+}
 
 LightHeed heedLights(const EmbreeScene& scene, float cellSize, double rays, const ParallelFor& parallelFor) {
     constexpr double kStray = 0.05;  // share of the light that may fall on backs without a word: on sheets, and through cracks

@@ -24,13 +24,6 @@ constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of fur
 constexpr double kSightSamples = 6.0;              // distances between evenly spread ones, below which points look from near
 constexpr float kWideCell = 1.25f;                 // times the distance from which points see surfaces: too wide to tell what they see apart
 
-std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
-    std::vector<ClvReceiver> receivers;
-    receivers.reserve(points.size());
-    for (const ReferencePoint& p : points) receivers.push_back({p.position, 0.0f, p.normal, 0.0f});
-    return receivers;
-}
-
 void moveTo(Scene& scene, const glm::dvec3& anchor) {
     const vec3 offset(scene.anchor - anchor);
     for (vec3& p : scene.positions) p += offset;

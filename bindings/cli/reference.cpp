@@ -3,11 +3,13 @@
 
 #include "benchmarks/report/metrics.h"
 #include "bindings/cli/command_line.h"
+#include "bindings/cli/heed_lights.h"
 #include "bindings/cli/options.h"
 #include "bindings/cli/point_table.h"
 #include "bindings/cli/progress.h"
 #include "bindings/cli/reference_run.h"
 #include "bindings/cli/staged_output.h"
+#include "bindings/cli/standard_streams.h"
 
 namespace clv {
 namespace {
@@ -30,6 +32,11 @@ struct ReferenceCommand {
         const std::vector<glm::vec3> irradiance = reference.irradiance(), standardError = reference.standardError();
         writePointTable(output.path(), table, {{"E_r,E_g,E_b", irradiance}, {"s_r,s_g,s_b", standardError}});
         output.commit();
+
+        const double paths = double(reference.samplesPerPoint) * double(table.points.size());
+        const std::vector<std::string> warnings = heedNearLights(embree, table.points, paths, parallelForOf(common));
+        for (const std::string& warning : warnings) sayOnStderr("clv: " + warning);
+        if (!warnings.empty()) report["warnings"] = warnings;
 
         report["points"] = table.points.size();
         report["bounces"] = allBounces ? "all" : "one";

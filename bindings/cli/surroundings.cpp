@@ -29,6 +29,13 @@ float quantile(std::vector<float>& values, double share) {
 
 }  // namespace
 
+std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
+    std::vector<ClvReceiver> receivers;
+    receivers.reserve(points.size());
+    for (const ReferencePoint& p : points) receivers.push_back({p.position, 0.0f, p.normal, 0.0f});
+    return receivers;
+}
+
 float nearSight(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
     std::vector<float> middles(looksOf(points));
     forLooks(points, parallelFor, [&](std::size_t k, const ClvReceiver& point) {

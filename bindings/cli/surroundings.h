@@ -4,11 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "bindings/embree/embree_scene.h"
+#include "bindings/embree/path_tracer.h"
 #include "clv/cpu/parallel.h"
 #include "clv/stages/evaluate.h"
 
 namespace clv {
+
+std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points);
 
 // m. A quarter of the points see half of what they see from nearer than this; kClvFar where they see nothing.
 float nearSight(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);

@@ -13,6 +13,7 @@ constexpr uint kSide = 16;  // of a light's map
 
 struct Met {
     double fronts = 0.0, backs = 0.0;  // W, all channels together
+    float reach = kClvFar;             // see LightCheck
 };
 
 Met whatIsMet(const EmbreeScene& embree, const ClvLight& light) {
@@ -29,6 +30,13 @@ Met whatIsMet(const EmbreeScene& embree, const ClvLight& light) {
         if (hits[k].primitive == kClvNoPrimitive) continue;
         const vec3 flux = rays[k].flux * (1.0f / float(kSide * kSide));
         (dot(windingNormal(scene, hits[k].primitive), rays[k].direction) < 0.0f ? met.fronts : met.backs) += double(flux.x) + double(flux.y) + double(flux.z);
+    }
+    if (light.type != kClvLightDirectional) {
+        std::vector<float> distances;
+        for (std::size_t k = 0; k < rays.size(); ++k) distances.push_back(hits[k].primitive == kClvNoPrimitive ? kClvFar : distance(rays[k].origin + rays[k].direction * hits[k].distance, light.position));
+        const auto quarter = distances.begin() + std::ptrdiff_t(distances.size() / 4);
+        std::nth_element(distances.begin(), quarter, distances.end());
+        met.reach = *quarter;
     }
     return met;
 }
@@ -49,6 +57,7 @@ LightCheck checkLights(const EmbreeScene& embree, const ParallelFor& parallelFor
     }
     const double all = sum.fronts + sum.backs;
     if (sum.backs > 0.0) check.shareOnBacks = sum.backs / all;
+    for (const Met& one : met) check.reach.push_back(one.reach);
     for (const Met& one : met) check.shares.push_back(all > 0.0 ? (one.fronts + one.backs) / all : 0.0);
     return check;
 }

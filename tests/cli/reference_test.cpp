@@ -2,6 +2,7 @@
 #include <chrono>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_command.h"
@@ -79,6 +80,18 @@ TEST_F(Reference, usesTheTimeItIsGiven) {
     EXPECT_GT(report.at("seconds"), 0.25);
     EXPECT_LT(report.at("seconds"), 2.0);
     EXPECT_GT(report.at("samples_per_point"), 16);
+}
+
+TEST_F(Reference, saysWhereALampIsTooNearToASurfaceForItsPaths) {
+    const auto warningsOf = [&](double height) {
+        const std::string lights = write("l.json", fmt::format(R"({{"lights": [{{"name": "spark", "type": "point", "position": [0.3, {}, 0.1], "intensity": [1, 1, 1]}}]}})", height));
+        const CommandResult result = runCommand(call({"--samples", "64", "--lights", lights, "--json"}));
+        EXPECT_EQ(result.status, 0) << result.err;
+        return json::parse(result.out).value("warnings", std::vector<std::string>());
+    };
+    ASSERT_EQ(warningsOf(1e-4).size(), 1u);
+    EXPECT_TRUE(warningsOf(1e-4)[0].starts_with("light \"spark\" sends a quarter of its light to surfaces within 0.000"));
+    EXPECT_TRUE(warningsOf(0.3).empty());
 }
 
 TEST_F(Reference, printsLinesForPeopleWithoutJson) {

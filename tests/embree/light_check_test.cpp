@@ -23,6 +23,20 @@ TEST(LightCheck, seesThatASceneIsInsideOut) {
     EXPECT_GE(checkLights(EmbreeScene(scene), serialFor()).shareOnBacks, 0.999);
 }
 
+TEST(LightCheck, knowsHowNearSurfacesAre) {
+    SmallScene room;
+    room.rectangle({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, room.material(glm::vec3(0.5f)));
+    room.light(makePointLight(glm::vec3(1.0f)), {0, 0.01, 0});
+    room.light(makePointLight(glm::vec3(1.0f)), {0, 10, 0});
+    room.light(makeDirectionalLight({0, -1, 0}, glm::vec3(1.0f)), {0, 0, 0});
+    const Scene scene = room.finish();
+    const LightCheck check = checkLights(EmbreeScene(scene), serialFor());
+    ASSERT_EQ(check.reach.size(), 3u);
+    EXPECT_NEAR(check.reach[0], 0.02, 0.001) << "a quarter of the sphere lies within 60 degrees of straight down";
+    EXPECT_NEAR(check.reach[1], 10.0, 0.1) << "of what is sent towards the scene";
+    EXPECT_EQ(check.reach[2], kClvFar);
+}
+
 TEST(LightCheck, namesTheLightsThatMeetNothing) {
     SmallScene room;
     room.rectangle({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, room.material(glm::vec3(0.5f)));
