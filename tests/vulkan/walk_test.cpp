@@ -1,9 +1,10 @@
-// The walk in shaders: rays that it may stumble over cross the same bricks as on the processor.
+// The walk in shaders: rays that it may stumble over keep their length, come to no cell twice, and cross the same bricks as on the processor.
 #include <gtest/gtest.h>
 
 #include <iterator>
 #include <numeric>
 
+#include "bindings/cli/stress/clipped_length.h"
 #include "bindings/cli/stress/walk_rays.h"
 #include "vulkan/level_scene.h"
 
@@ -27,10 +28,64 @@ std::vector<uint> raysOfBricks(const ClvVolume& bricks, std::span<const ClvRay> 
     return counts;
 }
 
-Level openLevel(const ivec3& resolution, float cellSize, const vec3& origin) {
+ClvVolume volumeOf(const ivec3& resolution, float cellSize, const vec3& origin) {
     ClvVolume volume{};
     volume.origin = origin, volume.cellSize = cellSize, volume.resolution = resolution;
-    return buildLevel(volume, {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+    return volume;
+}
+
+Level openLevel(const ivec3& resolution, float cellSize, const vec3& origin) {
+    return buildLevel(volumeOf(resolution, cellSize, origin), {}, {}, serialFor(), {.linesPerCell = 0, .findRegions = false});
+}
+
+std::vector<ClvRay> raysIn(const ClvVolume& volume, std::uint32_t seed) {
+    Random random(seed);
+    std::vector<ClvRay> rays;
+    for (std::uint32_t i = 0; i < kRays; ++i) rays.push_back(rayOfKind(RayKind(int(i % std::uint32_t(RayKind::kCount))), random, volume));
+    return rays;
+}
+
+TEST(VulkanWalk, raysOfEveryKindKeepTheirLengthAndComeToNoCellTwice) {
+    VulkanDevice device({.validate = true});
+    Frame description;
+    description.buffers = {{"frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host},
+                           {"level", CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host},
+                           {"rays", CLV_BIND_RAYS, kRays * sizeof(ClvRay), FrameSource::host},
+                           {"checks", CLV_BIND_IRRADIANCE, kRays * sizeof(vec4), FrameSource::passes, true}};
+    description.steps = {{"light", {{"walk", "walk_check", {}, {{0, FrameBinding::uniform}, {1, FrameBinding::uniform}, {2, FrameBinding::texel, FrameAccess::read, FrameFormat::rgba32Float},
+                                                                {3, FrameBinding::storage, FrameAccess::write}}, groupsFor(kRays), {}}}}};
+    addBarriers(description);
+    const ClvVolume volumes[] = {volumeOf(ivec3(32), 0.5f, vec3(-8.0f)), volumeOf(ivec3(61, 23, 40), 0.1f, vec3(0.3f, -1.7f, 2.9f)), volumeOf(ivec3(1), 1.0f, vec3(0.0f)),
+                                 volumeOf(ivec3(1, 1, 500), 0.25f, vec3(0.0f)), volumeOf(ivec3(1024, 1, 1), 0.25f, vec3(-128.0f, 0.0f, 0.0f)),
+                                 volumeOf(ivec3(16), 1e-9f, vec3(-8e-9f)), volumeOf(ivec3(16), 1e5f, vec3(-8e5f)), volumeOf(ivec3(16), 4.0f, vec3(1e7f, -1e7f, 1e7f))};
+    for (const ShaderLanguage language : {ShaderLanguage::glsl, ShaderLanguage::hlsl}) {
+        VulkanFrame frame(device, description, language);
+        ClvFrame constants{};
+        constants.rayCount = kRays;
+        frame.upload("frame", constants);
+        double worst = 0.0, cells = 0.0;
+        for (std::uint32_t k = 0; k < 2 * std::size(volumes); ++k) {
+            ClvLevelFrame level{};
+            level.volume = volumes[k % std::size(volumes)];
+            const std::vector<ClvRay> rays = raysIn(level.volume, 77u + k);
+            frame.upload("level", level);
+            frame.upload("rays", std::span<const ClvRay>(rays));
+            frame.run("light");
+            std::vector<vec4> checks(kRays);
+            frame.download("checks", std::span(checks));
+            for (std::uint32_t i = 0; i < kRays; ++i) {
+                // Each piece begins where the one before ends: together they are as long as the way from the first to the last.
+                const ClippedLength clipped = clippedLength(level.volume, exactRay(level.volume, rays[i]));
+                worst = std::max(worst, clipped.excess(double(checks[i].y) - double(checks[i].x)) / clipped.place);
+                cells += checks[i].z;
+                ASSERT_EQ(checks[i].w, 0.0f) << k << ", ray " << i << ", language " << int(language);
+            }
+        }
+        EXPECT_LE(worst, 4.0) << "last places, language " << int(language);
+        EXPECT_GT(cells, double(kRays) * 2 * std::size(volumes)) << "most rays cross cells";
+        RecordProperty("worst", std::to_string(worst));
+    }
+    EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
 
 TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
@@ -41,9 +96,7 @@ TEST(VulkanWalk, raysOfEveryKindCrossTheBricksThatTheyCrossOnTheHost) {
     for (std::uint32_t k = 0; k < kRounds * std::size(levels); ++k) {
         const Level& level = levels[k % std::size(levels)];
         const ClvVolume bricks = clvBrickVolume(level.volume);
-        Random random(7u + k);
-        std::vector<ClvRay> rays;
-        for (std::uint32_t i = 0; i < kRays; ++i) rays.push_back(rayOfKind(RayKind(int(i % std::uint32_t(RayKind::kCount))), random, level.volume));
+        const std::vector<ClvRay> rays = raysIn(level.volume, 7u + k);
         const std::vector<uint> expected = raysOfBricks(bricks, rays);
         ASSERT_GT(std::accumulate(expected.begin(), expected.end(), 0u), kRays / 2);
         const BrickSlots slots = brickSlots(level);
