@@ -22,7 +22,6 @@ constexpr std::size_t kFewestToWalk = 128;         // rays
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
 constexpr double kRaysForMiddle = 1e6, kRaysForFine = 32e6;
-constexpr float kWidestCell = 1.0f;  // times the distance from which points see surfaces
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
@@ -98,12 +97,13 @@ private:
     }
 
     // Further bounces have fewer rays and smoother light than the first: where the resolution is not given, they get a coarser level
-    // that keeps its noise as low.
+    // that keeps its noise as low, but for places that are lost in its cells: up to the finest that the first bounce chose.
     std::pair<int, Level> chooseLevel(std::span<const LitLevel> first) {
         if (!job_.automatic) return {first[0].resolution, first[0].light->level()};
         int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
+        const int finest = std::ranges::max_element(first, {}, &LitLevel::resolution)->resolution;
         for (const int finer : kResolutions) {
-            if (finer > resolution && volumeOver(job_.scene, resolution, job_.options).cellSize > kWidestCell * job_.sight) resolution = finer;
+            if (finer > resolution && finer <= finest && job_.hasWideCells(resolution)) resolution = finer;
         }
         return {resolution, job_.makeLevel(resolution)};
     }

@@ -29,17 +29,18 @@ void heedDimLights(const LightCheck& check, const std::vector<NamedLight>& light
 }  // namespace
 
 std::vector<std::string> heedNearLights(const EmbreeScene& scene, std::span<const ReferencePoint> points, double paths, const ParallelFor& parallelFor) {
-    constexpr double kFewPaths = 10.0;
+    constexpr double kFewPaths = 10.0, kNear = 0.1;  // paths; of the distance from which points see surfaces
     const LightCheck check = checkLights(scene, parallelFor);
-    const float sight = nearSight(scene, receiversOf(points), parallelFor);
+    const double sight = nearSight(scene, receiversOf(points), parallelFor);
     std::vector<std::string> warnings;
     for (std::size_t k = 0; k < check.reach.size(); ++k) {
         // A lamp on a surface lights what it sees, and no spot.
-        if (!(check.shares[k] > 0.0) || check.reach[k] <= 2.0f * scene.surfaceOffset()) continue;
-        const double half = 0.5 * double(check.reach[k]) / double(sight);
-        if (paths * half * half < kFewPaths)
-            warnings.push_back(fmt::format("light \"{}\" sends a quarter of its light to surfaces within {:.2g} m: about {:.1g} of {:g} paths meet them, and the standard error does not show what is missed",
-                                           scene.scene().lights[k].name, check.reach[k], paths * half * half, paths));
+        const double reach = check.reach[k], met = paths * 0.25 * reach * reach / (sight * sight);
+        if (check.shares[k] < kDim || reach <= 2.0 * double(scene.surfaceOffset()) || reach > kNear * sight || sight >= double(kClvFar)) continue;
+        if (met < kFewPaths)
+            warnings.push_back(fmt::format("light \"{}\" sends a quarter of its light to surfaces within {:.2g} m: about {:.2g} of {:.0f} paths meet them, and the "
+                                           "standard error does not show what is missed",
+                                           scene.scene().lights[k].name, reach, met, paths));
     }
     return warnings;
 }

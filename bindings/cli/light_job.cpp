@@ -22,7 +22,6 @@ constexpr std::size_t kJudges = 1024;              // receivers that choose the 
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
 constexpr double kSightSamples = 6.0;              // distances between evenly spread ones, below which points look from near
-constexpr float kWideCell = 1.25f;                 // times the distance from which points see surfaces: too wide to tell what they see apart
 
 void moveTo(Scene& scene, const glm::dvec3& anchor) {
     const vec3 offset(scene.anchor - anchor);
@@ -79,9 +78,10 @@ void LightJob::heedScene() {
     embree_->setSolids(!pointHeed.sheets);
     if (points.empty()) return;
     sight = nearSight(*embree_, points, parallelFor);
-    const float finest = volumeOver(scene, finestResolution(), options).cellSize;
-    if (grids.empty() && kWideCell * sight < finest)
-        report.warnings.push_back(fmt::format("points see surfaces from {:.2g} m, where cells are {:.2g} m wide: their light is inexact, or missing; a larger --resolution or less of a scene has smaller cells", sight, finest));
+    if (grids.empty() && hasWideCells(finestResolution()))
+        report.warnings.push_back(fmt::format("a quarter of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
+                                              "missing; a larger --resolution or less of a scene has smaller cells",
+                                              sight, volumeOver(scene, finestResolution(), options).cellSize));
 }
 
 // Evenly spread, and where the points see little of a wide scene, half of them there.
@@ -135,6 +135,8 @@ LitLevel LightJob::makeLit(Lighting& lighting, int resolution, Level level, std:
     clock.time("setup", [&] { lit.light = lighting.makeLevel(std::move(level)); });
     return lit;
 }
+
+bool LightJob::hasWideCells(int resolution) const { return volumeOver(scene, resolution, options).cellSize > sight; }
 
 int LightJob::finestResolution() const { return automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution; }
 

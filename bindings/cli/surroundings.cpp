@@ -50,15 +50,15 @@ std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Clv
     std::vector<std::vector<std::uint32_t>> seen(looksOf(points));  // triangles
     forLooks(points, parallelFor, [&](std::size_t k, const ClvReceiver& point) {
         std::vector<ClvReceiver> places;
-        const auto look = [&](const ClvReceiver& from) {
-            seenFaces(scene, from, clvHashCombine(uint(k), uint(seen[k].size())), [&](const vec3& position, const ClvHit& hit) {
+        const auto look = [&](const ClvReceiver& from, std::uint32_t seed) {
+            seenFaces(scene, from, seed, [&](const vec3& position, const ClvHit& hit) {
                 seen[k].push_back(hit.primitive);
                 places.push_back({position, 0.0f, hit.normal, 0.0f});
             });
         };
-        look(point);
+        look(point, clvHash(uint(k)));  // as nearSight() looks: what it sees is among the views
         // On to what is seen from there: no point sees the surface that it lies on.
-        for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]));
+        for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]), clvHashCombine(uint(k), uint(p)));
     });
     std::vector<std::uint32_t> views(scene.scene().triangles.size(), 0);
     for (const auto& triangles : seen) {

@@ -1,6 +1,7 @@
 #include "bindings/embree/light_check.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bindings/embree/seen_faces.h"
 #include "bindings/scene/scene_facts.h"
@@ -16,6 +17,8 @@ struct Met {
     float reach = kClvFar;             // see LightCheck
 };
 
+double total(const vec3& flux) { return double(flux.x) + double(flux.y) + double(flux.z); }
+
 Met whatIsMet(const EmbreeScene& embree, const ClvLight& light) {
     const Scene& scene = embree.scene();
     std::vector<ClvRay> rays;
@@ -28,15 +31,23 @@ Met whatIsMet(const EmbreeScene& embree, const ClvLight& light) {
     Met met;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         if (hits[k].primitive == kClvNoPrimitive) continue;
-        const vec3 flux = rays[k].flux * (1.0f / float(kSide * kSide));
-        (dot(windingNormal(scene, hits[k].primitive), rays[k].direction) < 0.0f ? met.fronts : met.backs) += double(flux.x) + double(flux.y) + double(flux.z);
+        (dot(windingNormal(scene, hits[k].primitive), rays[k].direction) < 0.0f ? met.fronts : met.backs) += total(rays[k].flux * (1.0f / float(kSide * kSide)));
     }
     if (light.type != kClvLightDirectional) {
-        std::vector<float> distances;
-        for (std::size_t k = 0; k < rays.size(); ++k) distances.push_back(hits[k].primitive == kClvNoPrimitive ? kClvFar : distance(rays[k].origin + rays[k].direction * hits[k].distance, light.position));
-        const auto quarter = distances.begin() + std::ptrdiff_t(distances.size() / 4);
-        std::nth_element(distances.begin(), quarter, distances.end());
-        met.reach = *quarter;
+        std::vector<std::pair<float, double>> sent;  // how far, m, and how much, W
+        double sum = 0.0;
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const vec3 end = rays[k].origin + rays[k].direction * hits[k].distance;
+            sent.emplace_back(hits[k].primitive == kClvNoPrimitive ? kClvFar : distance(end, light.position), total(rays[k].flux));
+            sum += sent.back().second;
+        }
+        std::ranges::sort(sent);
+        double within = 0.0;
+        for (const auto& [far, flux] : sent) {
+            if ((within += flux) < 0.25 * sum) continue;
+            met.reach = far;
+            break;
+        }
     }
     return met;
 }

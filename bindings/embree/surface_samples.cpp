@@ -49,7 +49,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
     // m^2 of points that lie evenly: more where there are more points on as much area.
     std::vector<double> weights = areas;
     const double area = std::accumulate(areas.begin(), areas.end(), 0.0), viewed = std::accumulate(views.begin(), views.end(), 0.0);
-    for (std::size_t t = 0; t < views.size(); ++t) weights[t] = 0.5 * (areas[t] + area * double(views[t]) / viewed);
+    for (std::size_t t = 0; t < views.size() && viewed > 0.0; ++t) weights[t] = 0.5 * (areas[t] + area * double(views[t]) / viewed);
     std::vector<double> ends(weights.size());
     std::inclusive_scan(weights.begin(), weights.end(), ends.begin());
     const double total = ends.back();

@@ -21,9 +21,10 @@ struct SurfaceSamples {
 double surfaceArea(const Scene& scene);
 
 // `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. Where there are
-// `views`, a number a triangle, not all 0, half of the points are in proportion to them instead, evenly over each triangle. A side
-// is left out when it sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then. Neighbours among the receivers
-// face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
+// `views`, a number a triangle, half of the points are in proportion to them instead, evenly over each triangle; none where all are 0. A side
+// is left out when it sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids
+// (EmbreeScene::solids), only then. Neighbours among the receivers face the same way and are near each other, so that a
+// well-spread sequence that picks receivers is spread in space, too.
 SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
                               std::span<const std::uint32_t> views = {});
 

@@ -68,7 +68,7 @@ private:
     CheckedObj checked_;
     ObjMaterials materials_;
     Corner counts_{};
-    std::string node_;
+    std::string node_ = kUnnamed;
     std::optional<std::size_t> material_, part_;
     std::map<std::string, std::size_t> nodes_;
     std::map<ObjPart, std::size_t> parts_;
@@ -89,6 +89,7 @@ void ObjCheck::check(const ObjLine& line, const std::string& keyword, std::istri
         material_ = materials_.use(line, restOf(words));
     } else if (keyword == "o" || keyword == "g") {
         node_ = restOf(words);
+        if (node_.empty()) node_ = kUnnamed;
     } else if (keyword == "mtllib") {
         addLibraries(line, restOf(words));
     } else if (keyword == "l" || keyword == "p") {
@@ -131,7 +132,7 @@ void ObjCheck::addFace(const ObjLine& line, std::istringstream& words) {
 
 void ObjCheck::choosePart() {
     const auto [node, isNewNode] = nodes_.try_emplace(node_, checked_.nodes.size());
-    if (isNewNode) checked_.nodes.push_back(node_.empty() ? kUnnamed : node_);
+    if (isNewNode) checked_.nodes.push_back(node_);
     const ObjPart wanted{node->second, *material_};
     const auto [part, isNew] = parts_.try_emplace(wanted, checked_.parts.size());
     if (isNew) checked_.parts.push_back(wanted);

@@ -1,5 +1,5 @@
-// For tests of a device: where each ray's walk enters and leaves the grid, how many cells it crosses, and how often it did not go on to the
-// next cell, from where it was.
+// For tests of a device: where each ray's walk enters and leaves the grid, how many cells it crosses, and its faults: cells that are not the
+// next one forwards, pieces that do not begin where the one before ended.
 #include "clv/data/frame.h"
 #include "clv/stages/inject.h"
 
@@ -25,7 +25,8 @@ void main(uint3 thread : SV_DispatchThreadID) {
         ClvCrossing crossing = clvWalkStep(walk, ray.direction);
         int3 moved = crossing.cell - last;
         float3 forwards = float3(moved) * ray.direction;
-        bool next = abs(moved.x) + abs(moved.y) + abs(moved.z) == (cells == 0 ? 0 : 1) && min(min(forwards.x, forwards.y), forwards.z) >= 0.0f;
+        int away = abs(moved.x) + abs(moved.y) + abs(moved.z);
+        bool next = cells == 0 ? away == 0 : away == 1 && forwards.x + forwards.y + forwards.z > 0.0f;
         bool joined = crossing.tBegin == end && crossing.tEnd >= crossing.tBegin;
         if (!next || !joined || clvCellInside(level.volume, crossing.cell) == 0) ++faults;
         last = crossing.cell;

@@ -97,6 +97,11 @@ TEST(SurfaceSamples, halfOfThemLieWhereViewsFallAndStandForLessAreaThere) {
     EXPECT_NEAR(double(onCeiling), (0.5 + 0.5 * 6.0 / 22.0) * kCount, 0.005 * kCount);
     EXPECT_NEAR(area, 22.0, 0.05);
     EXPECT_NEAR(ceiling, 6.0, 0.05);
+    std::ranges::fill(views, 0u);
+    const SurfaceSamples unseen = sampleSurfaces(EmbreeScene(scene), kCount, 1, tbbParallelFor(2), views), even = samplesOf(scene);
+    ASSERT_EQ(unseen.receivers.size(), even.receivers.size());
+    EXPECT_EQ(unseen.receivers[7].position, even.receivers[7].position);
+    EXPECT_EQ(unseen.area, even.area);
 }
 
 TEST(SurfaceSamples, areTheSameForASeedWhateverTheThreads) {

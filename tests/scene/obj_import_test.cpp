@@ -53,9 +53,9 @@ TEST_F(ObjImport, saysWhatItIgnores) {
 }
 
 TEST_F(ObjImport, facesInNoGroupHaveANodeOfTheirOwn) {
-    const Scene scene = loadScene(write("nodes.obj", kSquare + "f 1 2 3\no box\nf 1 3 4\ng\nf 2 3 4\n"));
+    const Scene scene = loadScene(write("nodes.obj", kSquare + "f 1 2 3\no box\nf 1 3 4\ng\nf 2 3 4\no box\ng default\nf 1 2 4\n"));
     EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"default", "box"}));
-    EXPECT_EQ(scene.nodeOf, (std::vector<std::uint32_t>{0, 1, 0}));
+    EXPECT_EQ(scene.nodeOf, (std::vector<std::uint32_t>{0, 1, 0, 0}));
 }
 
 TEST_F(ObjImport, anObjectOrGroupGoesOnWhereItsNameComesAgain) {

@@ -76,14 +76,14 @@ TEST(VulkanWalk, raysOfEveryKindKeepTheirLengthAndComeToNoCellTwice) {
             for (std::uint32_t i = 0; i < kRays; ++i) {
                 // Each piece begins where the one before ends: together they are as long as the way from the first to the last.
                 const ClippedLength clipped = clippedLength(level.volume, exactRay(level.volume, rays[i]));
-                worst = std::max(worst, clipped.excess(double(checks[i].y) - double(checks[i].x)) / clipped.place);
+                worst = largerOf(worst, clipped.excess(double(checks[i].y) - double(checks[i].x)) / clipped.place);
                 cells += checks[i].z;
                 ASSERT_EQ(checks[i].w, 0.0f) << k << ", ray " << i << ", language " << int(language);
             }
         }
         EXPECT_LE(worst, 4.0) << "last places, language " << int(language);
         EXPECT_GT(cells, double(kRays) * 2 * std::size(volumes)) << "most rays cross cells";
-        RecordProperty("worst", std::to_string(worst));
+        RecordProperty(language == ShaderLanguage::glsl ? "glsl" : "hlsl", std::to_string(worst));
     }
     EXPECT_EQ(device.messages(), std::vector<std::string>());
 }
