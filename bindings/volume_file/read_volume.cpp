@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -18,6 +19,13 @@ namespace clv {
 namespace fs = std::filesystem;
 namespace {
 
+// Of a file in the index's folder or below: what lies elsewhere is no part of what was written with it.
+bool isBeside(const std::string& name) {
+    const fs::path path(name);
+    const bool isText = std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    return isText && !path.empty() && path.is_relative() && std::ranges::find(path, "..") == path.end();
+}
+
 // The data sets that an index of this type lists.
 std::vector<vtkXMLDataElement*> dataSets(vtkXMLDataParser& parser, const std::string& file, const char* type) {
     vtkXMLDataElement* holder = parser.GetRootElement()->FindNestedElementWithName(type);
@@ -25,6 +33,7 @@ std::vector<vtkXMLDataElement*> dataSets(vtkXMLDataParser& parser, const std::st
     for (int i = 0; holder && i < holder->GetNumberOfNestedElements(); ++i) {
         vtkXMLDataElement* set = holder->GetNestedElement(i);
         if (set->GetName() != std::string("DataSet") || !set->GetAttribute("file")) throw InputError(fmt::format("{}: expected a list of data sets with their files", file));
+        if (!isBeside(set->GetAttribute("file"))) throw InputError(fmt::format("{}: expected data sets whose files lie beside it, or in folders there", file));
         sets.push_back(set);
     }
     if (sets.empty()) throw InputError(fmt::format("{}: expected at least one data set", file));

@@ -108,6 +108,18 @@ TEST_F(DamagedVolume, aMissingFileIsNamed) {
     EXPECT_TRUE(names(complaint(), "expected a file, not a folder"));
 }
 
+TEST_F(DamagedVolume, filesThatLieElsewhereAreNotRead) {
+    const std::string whole = read(file("V.vtm")), index = whole.substr(0, whole.rfind("\n<!-- clv")), name = "V/cascade_0.vti";
+    std::filesystem::create_directories(folder_ / "W");
+    const std::string absolute = file(name);
+    for (const std::string& elsewhere : {absolute, std::string("W/../V/cascade_0.vti"), std::string("V/cascade_0.vti&#10;x")}) {
+        std::string changed = index;
+        changed.replace(changed.find(name), name.size(), elsewhere);
+        sealFile(write("V.vtm", changed));
+        EXPECT_EQ(complaint(), file("V.vtm") + ": expected data sets whose files lie beside it, or in folders there") << elsewhere;
+    }
+}
+
 TEST_F(DamagedVolume, sealedTextOfAnyKindIsNoVolume) {
     for (const char* text : {"", "clv", "<", "<VTKFile", "<VTKFile/>", "<a></b>", "<VTKFile type=\"ImageData\"><ImageData></VTKFile>", "<VTKFile type=\"ImageData\" version=\"1.0\"/>",
                              "<VTKFile type=\"PolyData\" version=\"1.0\"/>"}) {
