@@ -31,7 +31,7 @@ void heedDimLights(const LightCheck& check, const std::vector<NamedLight>& light
 std::vector<std::string> heedNearLights(const EmbreeScene& scene, std::span<const ReferencePoint> points, double paths, const ParallelFor& parallelFor) {
     constexpr double kFewPaths = 10.0, kNear = 0.1;  // paths; of the distance from which points see surfaces
     const LightCheck check = checkLights(scene, parallelFor);
-    const double sight = nearSight(scene, receiversOf(points), parallelFor);
+    const double sight = nearSight(lookAround(scene, receiversOf(points), parallelFor));
     std::vector<std::string> warnings;
     for (std::size_t k = 0; k < check.reach.size(); ++k) {
         // A lamp on a surface lights what it sees, and no spot.

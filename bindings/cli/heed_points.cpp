@@ -6,14 +6,11 @@
 #include <fmt/format.h>
 
 #include "bindings/embree/path_tracer.h"
-#include "bindings/embree/seen_faces.h"
-#include "clv/math/hash.h"
 
 namespace clv {
 namespace {
 
 constexpr float kSlack = 1.0f / 64.0f;        // of the scene's largest extent, that points may lie outside without a word
-constexpr std::size_t kMostLooks = 1024;      // points that look around
 constexpr double kStray = 0.02;               // share of them that may face into something solid without a word
 constexpr double kMany = 0.05;                // share of them that face lit backs, beyond which surfaces are sheets
 constexpr int kMostlyBacks = kSeenRays / 2;   // rays that meet backs, at least, and three times as many as meet fronts
@@ -36,28 +33,27 @@ void heedPlaces(const Bounds& bounds, std::span<const ClvReceiver> points, std::
 struct Facing {
     double backs = 0.0, litBacks = 0.0;
 };
-Facing facing(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
-    const std::size_t looks = std::min(points.size(), kMostLooks);
+Facing facing(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {
     std::atomic<std::size_t> backs = 0, litBacks = 0;
-    parallelFor(looks, [&](std::size_t k) {
-        const ClvReceiver& point = points[k * points.size() / looks];
-        const SeenFaces seen = seenFaces(scene, point, clvHash(uint(k)));
-        if (seen.backs < kMostlyBacks || seen.backs <= 3 * seen.fronts) return;
+    parallelFor(looks.size(), [&](std::size_t k) {
+        const Look& look = looks[k];
+        if (look.faces.backs < kMostlyBacks || look.faces.backs <= 3 * look.faces.fronts) return;
         ++backs;
         bool lit = false;
-        seenFaces(scene, point, clvHash(uint(k)), [&](const vec3& position, const ClvHit& hit) { lit = lit || directIrradiance(scene, position, hit.normal) != vec3(0.0f); });
+        seenFaces(scene, look.point, look.seed, [&](const vec3& position, const ClvHit& hit) { lit = lit || directIrradiance(scene, position, hit.normal) != vec3(0.0f); });
         litBacks += lit;
     });
-    return {double(backs) / double(looks), double(litBacks) / double(looks)};
+    return {double(backs) / double(looks.size()), double(litBacks) / double(looks.size())};
 }
 
 }  // namespace
 
-PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, bool sheets, const ParallelFor& parallelFor) {
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, std::span<const Look> looks, bool sheets,
+                      const ParallelFor& parallelFor) {
     PointHeed heed{.warnings = {}, .sheets = sheets};
     heedPlaces(scene.scene().bounds, points, heed.warnings);
     if (points.empty() || sheets) return heed;
-    const Facing share = facing(scene, points, parallelFor);
+    const Facing share = facing(scene, looks, parallelFor);
     heed.sheets = share.litBacks > kMany;
     if (share.backs > kStray)
         heed.warnings.push_back(fmt::format("{:.1f} % of the points face the backs of surfaces: {}", 100.0 * share.backs,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/embree/embree_scene.h"
+#include "bindings/cli/surroundings.h"
 #include "clv/cpu/parallel.h"
 #include "clv/stages/evaluate.h"
 
@@ -16,7 +16,8 @@ struct PointHeed {
 };
 
 // Warns of points outside of the scene's bounds, where no light is stored, and of points that face into what counts as solid.
-// sheets: nothing counts as solid anyway.
-PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, bool sheets, const ParallelFor& parallelFor);
+// looks: of these points. sheets: nothing counts as solid anyway.
+PointHeed heedPoints(const EmbreeScene& scene, std::span<const ClvReceiver> points, std::span<const Look> looks, bool sheets,
+                      const ParallelFor& parallelFor);
 
 }  // namespace clv

@@ -8,7 +8,6 @@
 #include "bindings/cli/heed_lights.h"
 #include "bindings/cli/heed_points.h"
 #include "bindings/cli/scene_facts.h"
-#include "bindings/cli/surroundings.h"
 #include "bindings/cli/vulkan_lighting.h"
 #include "bindings/embree/light_check.h"
 #include "bindings/embree/visible_points.h"
@@ -73,11 +72,11 @@ void LightJob::heedScene() {
             proxy_.emplace(*proxyScene_);
         }
     }
-    const PointHeed pointHeed = heedPoints(*embree_, points, heed.sheets, parallelFor);
+    looks_ = lookAround(*embree_, points, parallelFor);
+    sight = nearSight(looks_);
+    const PointHeed pointHeed = heedPoints(*embree_, points, looks_, heed.sheets, parallelFor);
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
     embree_->setSolids(!pointHeed.sheets);
-    if (points.empty()) return;
-    sight = nearSight(*embree_, points, parallelFor);
     if (grids.empty() && hasWideCells(finestResolution()))
         report.warnings.push_back(fmt::format("a quarter of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
                                               "missing; a larger --resolution or less of a scene has smaller cells",
@@ -87,7 +86,7 @@ void LightJob::heedScene() {
 // Evenly spread, and where the points see little of a wide scene, half of them there.
 void LightJob::chooseSurfaces() {
     std::vector<std::uint32_t> views;
-    if (sight < kSightSamples * std::sqrt(surfaceArea(embree_->scene()) / double(kSurfaceSamples))) views = viewsOf(*embree_, points, parallelFor);
+    if (sight < kSightSamples * std::sqrt(surfaceArea(embree_->scene()) / double(kSurfaceSamples))) views = viewsOf(*embree_, looks_, parallelFor);
     surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor, views);
 }
 

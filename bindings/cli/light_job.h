@@ -7,6 +7,7 @@
 #include "bindings/cli/lit_level.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/stage_clock.h"
+#include "bindings/cli/surroundings.h"
 #include "bindings/embree/surface_samples.h"
 #include "clv/plan/needs.h"
 
@@ -57,6 +58,7 @@ private:
     void chooseSurfaces();
     void chooseJudges();
 
+    std::vector<Look> looks_;  // of the points
     std::optional<EmbreeScene> embree_, proxy_;
     std::optional<Scene> proxyScene_, turned_;
     std::unique_ptr<LightBackend> backend_;

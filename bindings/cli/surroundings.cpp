@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bindings/embree/seen_faces.h"
 #include "clv/math/hash.h"
 
 namespace clv {
@@ -10,14 +9,6 @@ namespace {
 
 constexpr std::size_t kMostLooks = 1024;  // points that look around
 constexpr std::size_t kSkipped = 4;       // of what a point sees every fourth place looks on
-
-std::size_t looksOf(std::span<const ClvReceiver> points) { return std::min(points.size(), kMostLooks); }
-
-// Calls `look` with the number and the place of each point that looks around.
-template <class Look>
-void forLooks(std::span<const ClvReceiver> points, const ParallelFor& parallelFor, Look&& look) {
-    parallelFor(looksOf(points), [&](std::size_t k) { look(k, points[k * points.size() / looksOf(points)]); });
-}
 
 // Element of rank share * size; kClvFar of none.
 float quantile(std::vector<float>& values, double share) {
@@ -36,19 +27,27 @@ std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points) {
     return receivers;
 }
 
-float nearSight(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
-    std::vector<float> middles(looksOf(points));
-    forLooks(points, parallelFor, [&](std::size_t k, const ClvReceiver& point) {
+std::vector<Look> lookAround(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
+    std::vector<Look> looks(std::min(points.size(), kMostLooks));
+    parallelFor(looks.size(), [&](std::size_t k) {
+        Look& look = looks[k];
+        look.point = points[k * points.size() / looks.size()], look.seed = clvHash(uint(k));
         std::vector<float> distances;
-        seenFaces(scene, point, clvHash(uint(k)), [&](const vec3&, const ClvHit& hit) { distances.push_back(hit.distance); });
-        middles[k] = quantile(distances, 0.5);
+        look.faces = seenFaces(scene, look.point, look.seed, [&](const vec3&, const ClvHit& hit) { distances.push_back(hit.distance); });
+        look.middle = quantile(distances, 0.5);
     });
+    return looks;
+}
+
+float nearSight(std::span<const Look> looks) {
+    std::vector<float> middles;
+    for (const Look& look : looks) middles.push_back(look.middle);
     return quantile(middles, 0.25);
 }
 
-std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor) {
-    std::vector<std::vector<std::uint32_t>> seen(looksOf(points));  // triangles
-    forLooks(points, parallelFor, [&](std::size_t k, const ClvReceiver& point) {
+std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {
+    std::vector<std::vector<std::uint32_t>> seen(looks.size());  // triangles
+    parallelFor(looks.size(), [&](std::size_t k) {
         std::vector<ClvReceiver> places;
         const auto look = [&](const ClvReceiver& from, std::uint32_t seed) {
             seenFaces(scene, from, seed, [&](const vec3& position, const ClvHit& hit) {
@@ -56,9 +55,9 @@ std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Clv
                 places.push_back({position, 0.0f, hit.normal, 0.0f});
             });
         };
-        look(point, clvHash(uint(k)));  // as nearSight() looks: what it sees is among the views
+        look(looks[k].point, looks[k].seed);
         // On to what is seen from there: no point sees the surface that it lies on.
-        for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]), clvHashCombine(uint(k), uint(p)));
+        for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]), clvHashCombine(looks[k].seed, uint(p)));
     });
     std::vector<std::uint32_t> views(scene.scene().triangles.size(), 0);
     for (const auto& triangles : seen) {

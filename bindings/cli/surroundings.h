@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings/embree/path_tracer.h"
+#include "bindings/embree/seen_faces.h"
 #include "clv/cpu/parallel.h"
 #include "clv/stages/evaluate.h"
 
@@ -12,10 +13,21 @@ namespace clv {
 
 std::vector<ClvReceiver> receiversOf(std::span<const ReferencePoint> points);
 
+// What one of the points sees.
+struct Look {
+    ClvReceiver point;
+    std::uint32_t seed = 0;   // of its rays: see seenFaces()
+    SeenFaces faces;
+    float middle = kClvFar;   // m: half of what it sees is nearer; kClvFar where it sees nothing
+};
+
+// Of a thousand of the points, or of all where there are fewer.
+std::vector<Look> lookAround(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+
 // m. A quarter of the points see half of what they see from nearer than this; kClvFar where they see nothing.
-float nearSight(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+float nearSight(std::span<const Look> looks);
 
 // How many looks fall on each triangle: of the points, and of places that they see.
-std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
+std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor);
 
 }  // namespace clv

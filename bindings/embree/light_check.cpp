@@ -68,8 +68,10 @@ LightCheck checkLights(const EmbreeScene& embree, const ParallelFor& parallelFor
     }
     const double all = sum.fronts + sum.backs;
     if (sum.backs > 0.0) check.shareOnBacks = sum.backs / all;
-    for (const Met& one : met) check.reach.push_back(one.reach);
-    for (const Met& one : met) check.shares.push_back(all > 0.0 ? (one.fronts + one.backs) / all : 0.0);
+    for (const Met& one : met) {
+        check.shares.push_back(all > 0.0 ? (one.fronts + one.backs) / all : 0.0);
+        check.reach.push_back(one.reach);
+    }
     return check;
 }
 

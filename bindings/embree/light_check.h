@@ -12,7 +12,8 @@ struct LightCheck {
     std::vector<std::string> idle;   // names of lights that are on and meet no surface: too far away, or turned away from everything
     double shareOnBacks = 0.0;       // of the flux that meets something, how much meets backs of surfaces first
     std::vector<double> shares;      // of that flux, each light's
-    std::vector<float> reach;        // m, each light's: a quarter of what it sends towards the scene meets surfaces within it; kClvFar where less meets any, and for the sun
+    // m, each light's: a quarter of what it sends towards the scene meets surfaces within it; kClvFar where less meets any, and for the sun.
+    std::vector<float> reach;
 };
 
 // Follows a few hundred rays of each light that is on.

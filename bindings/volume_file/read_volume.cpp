@@ -19,7 +19,7 @@ namespace clv {
 namespace fs = std::filesystem;
 namespace {
 
-// Of a file in the index's folder or below: what lies elsewhere is no part of what was written with it.
+// Of a file in the index's folder or below, in one line: what lies elsewhere is no part of what was written with it.
 bool isBeside(const std::string& name) {
     const fs::path path(name);
     const bool isText = std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });

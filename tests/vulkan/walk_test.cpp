@@ -6,6 +6,7 @@
 
 #include "bindings/cli/stress/clipped_length.h"
 #include "bindings/cli/stress/walk_rays.h"
+#include "clv/stages/walk_check.h"
 #include "vulkan/level_scene.h"
 
 using namespace clv;
@@ -45,13 +46,14 @@ std::vector<ClvRay> raysIn(const ClvVolume& volume, std::uint32_t seed) {
     return rays;
 }
 
+// --gtest_shuffle --gtest_repeat=N gives other rays each time.
 TEST(VulkanWalk, raysOfEveryKindKeepTheirLengthAndComeToNoCellTwice) {
     VulkanDevice device({.validate = true});
     Frame description;
     description.buffers = {{"frame", CLV_BIND_FRAME, sizeof(ClvFrame), FrameSource::host},
                            {"level", CLV_BIND_LEVEL, sizeof(ClvLevelFrame), FrameSource::host},
                            {"rays", CLV_BIND_RAYS, kRays * sizeof(ClvRay), FrameSource::host},
-                           {"checks", CLV_BIND_IRRADIANCE, kRays * sizeof(vec4), FrameSource::passes, true}};
+                           {"checks", CLV_BIND_WALK_CHECKS, kRays * sizeof(ClvWalkCheck), FrameSource::passes, true}};
     description.steps = {{"light", {{"walk", "walk_check", {}, {{0, FrameBinding::uniform}, {1, FrameBinding::uniform}, {2, FrameBinding::texel, FrameAccess::read, FrameFormat::rgba32Float},
                                                                 {3, FrameBinding::storage, FrameAccess::write}}, groupsFor(kRays), {}}}}};
     addBarriers(description);
@@ -67,18 +69,18 @@ TEST(VulkanWalk, raysOfEveryKindKeepTheirLengthAndComeToNoCellTwice) {
         for (std::uint32_t k = 0; k < 2 * std::size(volumes); ++k) {
             ClvLevelFrame level{};
             level.volume = volumes[k % std::size(volumes)];
-            const std::vector<ClvRay> rays = raysIn(level.volume, 77u + k);
+            const std::vector<ClvRay> rays = raysIn(level.volume, 77u + k + 1000u * std::uint32_t(testing::UnitTest::GetInstance()->random_seed()));
             frame.upload("level", level);
             frame.upload("rays", std::span<const ClvRay>(rays));
             frame.run("light");
-            std::vector<vec4> checks(kRays);
+            std::vector<ClvWalkCheck> checks(kRays);
             frame.download("checks", std::span(checks));
             for (std::uint32_t i = 0; i < kRays; ++i) {
                 // Each piece begins where the one before ends: together they are as long as the way from the first to the last.
                 const ClippedLength clipped = clippedLength(level.volume, exactRay(level.volume, rays[i]));
-                worst = largerOf(worst, clipped.excess(double(checks[i].y) - double(checks[i].x)) / clipped.place);
-                cells += checks[i].z;
-                ASSERT_EQ(checks[i].w, 0.0f) << k << ", ray " << i << ", language " << int(language);
+                worst = largerOf(worst, clipped.excess(double(checks[i].end) - double(checks[i].begin)) / clipped.place);
+                cells += checks[i].cells;
+                ASSERT_EQ(checks[i].faults, 0) << k << ", ray " << i << ", language " << int(language);
             }
         }
         EXPECT_LE(worst, 4.0) << "last places, language " << int(language);

@@ -86,6 +86,9 @@
 #define CLV_BIND_ACCELERATION 49   // acceleration structure: the triangles in the order of CLV_BIND_TRIANGLES
 #define CLV_BIND_CORNERS 50        // float[triangles * 9]: it is built from these; no shader has them
 
+// Tests of a device.
+#define CLV_BIND_WALK_CHECKS 51    // ClvWalkCheck[rayCount]
+
 // Specialisation constants: what is fixed for a scene, so that compilers remove what it does not need.
 #define CLV_SPEC_STORAGE 0         // kClvStorage...
 #define CLV_SPEC_CHANNELS 1        // 3, or 1 in a scene without colour
