@@ -63,6 +63,7 @@
 #include "stages/texture.h"
 #include "stages/trace.h"
 #include "stages/trace_bvh.h"
+#include "stages/walk_check.h"
 #include "plan/cascade_placement.h"
 #include "plan/cell_box.h"
 #include "plan/direction_frame.h"

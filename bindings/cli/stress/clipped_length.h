@@ -28,6 +28,14 @@ inline ExactRay exactRay(const ClvVolume& v, const ClvRay& ray) {
     return exact;
 }
 
+// How far a place along a ray lies outside of a cell, in cells; at most 0 inside.
+inline double cellsApart(const ExactRay& ray, const ivec3& cell, double t) {
+    const glm::dvec3 above = ray.origin + ray.direction * t - glm::dvec3(cell);
+    double apart = -1.0;
+    for (int axis = 0; axis < 3; ++axis) apart = largerOf(apart, std::max(-above[axis], above[axis] - 1.0));
+    return apart;
+}
+
 // The part of a ray inside the grid made wider by `margin` cells on all sides.
 struct Interval {
     double begin = 0.0, end = 0.0;

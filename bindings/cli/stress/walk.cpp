@@ -38,10 +38,7 @@ WalkErrors walkOne(const ClvVolume& v, const ClvRay& ray) {
         sum += piece;
         errors.negative += !(piece >= 0.0);
         errors.outside += clvCellInside(v, crossing.cell) == 0;
-        for (double t : {double(crossing.tBegin), double(crossing.tEnd)}) {
-            const glm::dvec3 above = exact.origin + exact.direction * t - glm::dvec3(crossing.cell);
-            for (int axis = 0; axis < 3; ++axis) errors.displaced = largerOf(errors.displaced, std::max(-above[axis], above[axis] - 1.0) / exact.place);
-        }
+        for (float t : {crossing.tBegin, crossing.tEnd}) errors.displaced = largerOf(errors.displaced, cellsApart(exact, crossing.cell, t) / exact.place);
         // Each step goes to a neighbour, forwards along one axis, so no cell comes twice.
         if (cells > 0) {
             const ivec3 step = crossing.cell - last;

@@ -6,11 +6,20 @@ CLV_NAMESPACE_BEGIN
 
 // Pieces of a walk without faults begin where the one before ended, so that together they are as long as end - begin.
 struct ClvWalkCheck {
-    float begin;   // in cells along the ray: where the first crossing begins,
-    float end;     // and where the last one ends; both 0 where there is none
-    int cells;     // crossings
-    int faults;    // crossings that are outside of the grid, not of the next cell forwards, or not joined to the one before, and an endless walk
+    float begin;      // in cells along the ray: where the first crossing begins,
+    float end;        // and where the last one ends; both 0 where there is none
+    int cells;        // crossings
+    int faults;       // crossings outside of the grid, not of the next cell forwards, or not joined to the one before; an endless walk
+    ivec3 apartCell;  // the cell from whose box a piece's begin or end lies farthest,
+    float apartAt;    // and where along the ray this is, in cells; 0 where there is no crossing
 };
+
+// How far a place along the ray lies outside of a cell, in cells; negative inside.
+CLV_FN float clvApart(ClvWalk walk, vec3 direction, ivec3 cell, float t) {
+    vec3 above = walk.origin - vec3(float(cell.x), float(cell.y), float(cell.z)) + direction * t;
+    vec3 apart = max(-above, above - vec3(1.0f, 1.0f, 1.0f));
+    return max(max(apart.x, apart.y), apart.z);
+}
 
 CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
     ClvWalk walk = clvWalkBegin(volume, ray);
@@ -19,6 +28,9 @@ CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
     check.end = check.begin;
     check.cells = 0;
     check.faults = 0;
+    check.apartCell = walk.cell;
+    check.apartAt = check.begin;
+    float mostApart = -1.0f;
     int most = volume.resolution.x + volume.resolution.y + volume.resolution.z;
     ivec3 last = walk.cell;
     while (walk.running == 1 && check.cells <= most) {
@@ -29,6 +41,13 @@ CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
         bool next = check.cells == 0 ? away == 0 : away == 1 && forwards > 0.0f;
         bool joined = crossing.tBegin == check.end && crossing.tEnd >= crossing.tBegin;
         if (!next || !joined || clvCellInside(volume, crossing.cell) == 0) check.faults += 1;
+        float apartBegin = clvApart(walk, ray.direction, crossing.cell, crossing.tBegin);
+        float apartEnd = clvApart(walk, ray.direction, crossing.cell, crossing.tEnd);
+        if (max(apartBegin, apartEnd) > mostApart) {
+            mostApart = max(apartBegin, apartEnd);
+            check.apartCell = crossing.cell;
+            check.apartAt = apartBegin > apartEnd ? crossing.tBegin : crossing.tEnd;
+        }
         last = crossing.cell;
         check.end = crossing.tEnd;
         check.cells += 1;
