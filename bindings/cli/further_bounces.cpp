@@ -103,7 +103,7 @@ private:
         int resolution = budget_ < kRaysForMiddle ? kCoarse : budget_ < kRaysForFine ? kMiddle : kFine;
         const int finest = std::ranges::max_element(first, {}, &LitLevel::resolution)->resolution;
         for (const int finer : kResolutions) {
-            if (finer > resolution && finer <= finest && job_.hasWideCells(resolution)) resolution = finer;
+            if (finer > resolution && finer <= finest && job_.cellsInSight(resolution) < 1.0f) resolution = finer;
         }
         return {resolution, job_.makeLevel(resolution)};
     }

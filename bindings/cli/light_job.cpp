@@ -21,6 +21,7 @@ constexpr std::size_t kJudges = 1024;              // receivers that choose the 
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
 constexpr double kSightSamples = 6.0;              // distances between evenly spread ones, below which points look from near
+constexpr float kExact = 2.0f;                     // cells in sight, below which light is said to be inexact
 
 void moveTo(Scene& scene, const glm::dvec3& anchor) {
     const vec3 offset(scene.anchor - anchor);
@@ -77,7 +78,7 @@ void LightJob::heedScene() {
     const PointHeed pointHeed = heedPoints(*embree_, points, looks_, heed.sheets, parallelFor);
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
     embree_->setSolids(!pointHeed.sheets);
-    if (grids.empty() && hasWideCells(finestResolution()))
+    if (grids.empty() && cellsInSight(finestResolution()) < kExact)
         report.warnings.push_back(fmt::format("a quarter of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
                                               "missing; a larger --resolution or less of a scene has smaller cells",
                                               sight, volumeOver(scene, finestResolution(), options).cellSize));
@@ -85,7 +86,7 @@ void LightJob::heedScene() {
 
 // Evenly spread, and where the points see little of a wide scene, half of them there.
 void LightJob::chooseSurfaces() {
-    std::vector<std::uint32_t> views;
+    std::vector<SurfaceView> views;
     if (sight < kSightSamples * std::sqrt(surfaceArea(embree_->scene()) / double(kSurfaceSamples))) views = viewsOf(*embree_, looks_, parallelFor);
     surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor, views);
 }
@@ -135,7 +136,7 @@ LitLevel LightJob::makeLit(Lighting& lighting, int resolution, Level level, std:
     return lit;
 }
 
-bool LightJob::hasWideCells(int resolution) const { return volumeOver(scene, resolution, options).cellSize > sight; }
+float LightJob::cellsInSight(int resolution) const { return sight / volumeOver(scene, resolution, options).cellSize; }
 
 int LightJob::finestResolution() const { return automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution; }
 

@@ -25,8 +25,9 @@ struct LightJob {
     Level makeLevel(int resolution);
     // With slots wherever there is open space.
     Level makeLevel(const ClvVolume& grid);
-    // Wider than what points see is away, so that places are lost in them.
-    bool hasWideCells(int resolution) const;
+    // How many cells lie between points and half of what they see. Of fewer than two the light is inexact; where there is less than one, places
+    // are lost.
+    float cellsInSight(int resolution) const;
     std::shared_ptr<const Lookups> makeLookups(const Level& level);
     LitLevel makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups);
     // stream: each lighting has one of its own, from which the seed of its rays follows.

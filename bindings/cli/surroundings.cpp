@@ -45,13 +45,13 @@ float nearSight(std::span<const Look> looks) {
     return quantile(middles, 0.25);
 }
 
-std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {
-    std::vector<std::vector<std::uint32_t>> seen(looks.size());  // triangles
+std::vector<SurfaceView> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {
+    std::vector<std::vector<SurfaceView>> seen(looks.size());
     parallelFor(looks.size(), [&](std::size_t k) {
         std::vector<ClvReceiver> places;
         const auto look = [&](const ClvReceiver& from, std::uint32_t seed) {
             seenFaces(scene, from, seed, [&](const vec3& position, const ClvHit& hit) {
-                seen[k].push_back(hit.primitive);
+                seen[k].push_back({hit.primitive, position});
                 places.push_back({position, 0.0f, hit.normal, 0.0f});
             });
         };
@@ -59,10 +59,8 @@ std::vector<std::uint32_t> viewsOf(const EmbreeScene& scene, std::span<const Loo
         // On to what is seen from there: no point sees the surface that it lies on.
         for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]), clvHashCombine(looks[k].seed, uint(p)));
     });
-    std::vector<std::uint32_t> views(scene.scene().triangles.size(), 0);
-    for (const auto& triangles : seen) {
-        for (const std::uint32_t triangle : triangles) ++views[triangle];
-    }
+    std::vector<SurfaceView> views;
+    for (const auto& some : seen) views.insert(views.end(), some.begin(), some.end());
     return views;
 }
 

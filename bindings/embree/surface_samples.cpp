@@ -29,30 +29,27 @@ std::uint64_t placeOf(const vec3& position, const vec3& normal, const Bounds& bo
     return facing << 30 | spread(std::uint32_t(at.x)) | spread(std::uint32_t(at.y)) << 1 | spread(std::uint32_t(at.z)) << 2;
 }
 
-std::vector<double> areasOf(const Scene& scene) {
-    std::vector<double> areas(scene.triangles.size());
-    for (std::size_t t = 0; t < areas.size(); ++t) areas[t] = 0.5 * double(glm::length(windingNormal(scene, std::uint32_t(t))));
-    return areas;
-}
+// m^2 of points that lie evenly: what of them falls on a patch. Half of them go where views are, if there are any.
+double weightOf(const SurfacePatch& patch, double total, bool isSeen) { return isSeen ? 0.5 * (patch.area + total * patch.share) : patch.area; }
 
 }  // namespace
 
 double surfaceArea(const Scene& scene) {
-    const std::vector<double> areas = areasOf(scene);
+    const std::vector<double> areas = triangleAreas(scene);
     return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
-                              std::span<const std::uint32_t> views) {
+                              std::span<const SurfaceView> views) {
     const Scene& scene = embree.scene();
-    const std::vector<double> areas = areasOf(scene);
-    // m^2 of points that lie evenly: more where there are more points on as much area.
-    std::vector<double> weights = areas;
-    const double area = std::accumulate(areas.begin(), areas.end(), 0.0), viewed = std::accumulate(views.begin(), views.end(), 0.0);
-    for (std::size_t t = 0; t < views.size() && viewed > 0.0; ++t) weights[t] = 0.5 * (areas[t] + area * double(views[t]) / viewed);
-    std::vector<double> ends(weights.size());
-    std::inclusive_scan(weights.begin(), weights.end(), ends.begin());
-    const double total = ends.back();
+    const bool isSeen = !views.empty();
+    const std::vector<double> areas = triangleAreas(scene);
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const std::vector<SurfacePatch> seen = isSeen ? patchesWhereSeen(scene, views) : std::vector<SurfacePatch>();
+    const auto patchAt = [&](std::size_t k) { return isSeen ? seen[k] : SurfacePatch{.triangle = std::uint32_t(k), .area = areas[k]}; };
+    std::vector<double> ends(isSeen ? seen.size() : areas.size());  // sums of weights, m^2
+    double total = 0.0;
+    for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = total += weightOf(patchAt(k), area, isSeen);
     SurfaceSamples all;
     all.receivers.resize(2 * count);
     all.albedo.resize(count);
@@ -62,14 +59,15 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
         for (std::size_t k = piece * kPiece; k < std::min(count, (piece + 1) * kPiece); ++k) {
             const vec4 u = clvSobol4(uint(k), seed);
             const double at = (double(k) + u.x) / double(count) * total;
-            const std::size_t t = std::min<std::size_t>(std::lower_bound(ends.begin(), ends.end(), at) - ends.begin(), ends.size() - 1);
+            const SurfacePatch patch = patchAt(std::min<std::size_t>(std::lower_bound(ends.begin(), ends.end(), at) - ends.begin(), ends.size() - 1));
+            const std::uint32_t t = patch.triangle;
             const glm::uvec3& c = scene.triangles[t];
             // Uniform in a triangle: Turk 1990.
-            const float root = std::sqrt(u.y), v1 = root * (1.0f - u.z), v2 = root * u.z;
+            const float root = std::sqrt(u.y), v1 = patch.v1 + patch.size * root * (1.0f - u.z), v2 = patch.v2 + patch.size * root * u.z;
             const vec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
-            const vec3 normal = glm::normalize(windingNormal(scene, std::uint32_t(t)));
-            all.albedo[k] = scene.albedo(std::uint32_t(t), v1, v2);
-            all.area[k] = float(total / double(count) * (areas[t] / weights[t]));
+            const vec3 normal = glm::normalize(windingNormal(scene, t));
+            all.albedo[k] = scene.albedo(t, v1, v2);
+            all.area[k] = float(total / double(count) * (patch.area / weightOf(patch, area, isSeen)));
             for (int side = 0; side < 2; ++side) {
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};

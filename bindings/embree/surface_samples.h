@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings/embree/embree_scene.h"
+#include "bindings/embree/surface_patches.h"
 #include "clv/cpu/parallel.h"
 #include "clv/data/rsm_texel.h"
 #include "clv/stages/evaluate.h"
@@ -21,12 +22,11 @@ struct SurfaceSamples {
 double surfaceArea(const Scene& scene);
 
 // `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. Where there are
-// `views`, a number a triangle, half of the points are in proportion to them instead, evenly over each triangle; none where all are 0. A side
-// is left out when it sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids
-// (EmbreeScene::solids), only then. Neighbours among the receivers face the same way and are near each other, so that a
-// well-spread sequence that picks receivers is spread in space, too.
+// `views`, half of the points are in proportion to them instead: see patchesWhereSeen(). A side is left out when it sees more backs than fronts, as
+// the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then. Neighbours among the receivers
+// face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
 SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
-                              std::span<const std::uint32_t> views = {});
+                              std::span<const SurfaceView> views = {});
 
 // In the order of those receivers: by which way they face, then by place.
 void sortAlongSurfaces(std::vector<ClvRsmTexel>& texels, const Bounds& bounds);
