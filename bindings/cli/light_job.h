@@ -25,8 +25,7 @@ struct LightJob {
     Level makeLevel(int resolution);
     // With slots wherever there is open space.
     Level makeLevel(const ClvVolume& grid);
-    // How many cells lie between points and half of what they see. Of fewer than two the light is inexact; where there is less than one, places
-    // are lost.
+    // Cells from points to what they see: in nearSight(). Of fewer than two the light is inexact; where there is less than one, places are lost.
     float cellsInSight(int resolution) const;
     std::shared_ptr<const Lookups> makeLookups(const Level& level);
     LitLevel makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups);

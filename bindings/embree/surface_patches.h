@@ -19,16 +19,13 @@ struct SurfacePatch {
     std::uint32_t triangle = 0;
     float v1 = 0.0f, v2 = 0.0f;  // barycentric coordinates of its first corner, as those of Scene::albedo
     float size = 1.0f;           // of its edges, as a share of those of the triangle; negative of a part that is upside down
-    double area = 0.0;           // m^2
-    double share = 0.0;          // of the views; of its area where there are none. All together: 1
+    float area = 0.0f;           // m^2
+    float share = 0.0f;          // of the views, smoothed by area. All together: 1
 };
 
-// Covers each triangle once: whole, or cut where many views fall, up to 2^20 times along an edge. Few views don't tell places from each other:
-// shares go down a tree of neighbouring triangles, and of quarters of triangles, whose branches share by area where there are few of them, and
-// are never left out altogether (a Polya tree: Ferguson 1974). Neighbours follow each other.
+// Covers each triangle once: whole, or cut where many views fall, into up to 2^20 parts an edge. Few views don't tell places from each other:
+// shares go down a tree of neighbouring triangles of like size, and of quarters of triangles, whose branches share by area where there are few
+// views, and are never left out altogether (a Polya tree: Ferguson 1974). Without views the patches are all triangles in their order.
 std::vector<SurfacePatch> patchesWhereSeen(const Scene& scene, std::span<const SurfaceView> views);
-
-// m^2, of each triangle.
-std::vector<double> triangleAreas(const Scene& scene);
 
 }  // namespace clv

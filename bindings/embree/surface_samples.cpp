@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "bindings/embree/seen_faces.h"
 #include "clv/math/sobol.h"
@@ -29,27 +28,26 @@ std::uint64_t placeOf(const vec3& position, const vec3& normal, const Bounds& bo
     return facing << 30 | spread(std::uint32_t(at.x)) | spread(std::uint32_t(at.y)) << 1 | spread(std::uint32_t(at.z)) << 2;
 }
 
-// m^2 of points that lie evenly: what of them falls on a patch. Half of them go where views are, if there are any.
-double weightOf(const SurfacePatch& patch, double total, bool isSeen) { return isSeen ? 0.5 * (patch.area + total * patch.share) : patch.area; }
+// Samples that fall on a patch, in proportion, m^2: half by its area and half by its share of the views, which is the same where there are none.
+double weightOf(const SurfacePatch& patch, double total) { return 0.5 * (double(patch.area) + total * double(patch.share)); }
 
 }  // namespace
 
 double surfaceArea(const Scene& scene) {
-    const std::vector<double> areas = triangleAreas(scene);
-    return std::accumulate(areas.begin(), areas.end(), 0.0);
+    double area = 0.0;
+    for (std::size_t t = 0; t < scene.triangles.size(); ++t) area += 0.5 * double(glm::length(windingNormal(scene, std::uint32_t(t))));
+    return area;
 }
 
 SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
                               std::span<const SurfaceView> views) {
     const Scene& scene = embree.scene();
-    const bool isSeen = !views.empty();
-    const std::vector<double> areas = triangleAreas(scene);
-    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    const std::vector<SurfacePatch> seen = isSeen ? patchesWhereSeen(scene, views) : std::vector<SurfacePatch>();
-    const auto patchAt = [&](std::size_t k) { return isSeen ? seen[k] : SurfacePatch{.triangle = std::uint32_t(k), .area = areas[k]}; };
-    std::vector<double> ends(isSeen ? seen.size() : areas.size());  // sums of weights, m^2
-    double total = 0.0;
-    for (std::size_t k = 0; k < ends.size(); ++k) ends[k] = total += weightOf(patchAt(k), area, isSeen);
+    const std::vector<SurfacePatch> patches = patchesWhereSeen(scene, views);
+    double area = 0.0, total = 0.0;
+    for (const SurfacePatch& patch : patches) area += double(patch.area);
+    std::vector<double> ends;  // sums of weights, m^2
+    ends.reserve(patches.size());
+    for (const SurfacePatch& patch : patches) ends.push_back(total += weightOf(patch, area));
     SurfaceSamples all;
     all.receivers.resize(2 * count);
     all.albedo.resize(count);
@@ -59,7 +57,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
         for (std::size_t k = piece * kPiece; k < std::min(count, (piece + 1) * kPiece); ++k) {
             const vec4 u = clvSobol4(uint(k), seed);
             const double at = (double(k) + u.x) / double(count) * total;
-            const SurfacePatch patch = patchAt(std::min<std::size_t>(std::lower_bound(ends.begin(), ends.end(), at) - ends.begin(), ends.size() - 1));
+            const SurfacePatch& patch = patches[std::min<std::size_t>(std::lower_bound(ends.begin(), ends.end(), at) - ends.begin(), ends.size() - 1)];
             const std::uint32_t t = patch.triangle;
             const glm::uvec3& c = scene.triangles[t];
             // Uniform in a triangle: Turk 1990.
@@ -67,7 +65,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
             const vec3 a = scene.positions[c.x], b = scene.positions[c.y], d = scene.positions[c.z];
             const vec3 normal = glm::normalize(windingNormal(scene, t));
             all.albedo[k] = scene.albedo(t, v1, v2);
-            all.area[k] = float(total / double(count) * (patch.area / weightOf(patch, area, isSeen)));
+            all.area[k] = float(total / double(count) * (double(patch.area) / weightOf(patch, area)));
             for (int side = 0; side < 2; ++side) {
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};

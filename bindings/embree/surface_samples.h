@@ -22,9 +22,10 @@ struct SurfaceSamples {
 double surfaceArea(const Scene& scene);
 
 // `count` points, in proportion to area, stratified along the order of the triangles; each gives none, one or two receivers. Where there are
-// `views`, half of the points are in proportion to them instead: see patchesWhereSeen(). A side is left out when it sees more backs than fronts, as
-// the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then. Neighbours among the receivers
-// face the same way and are near each other, so that a well-spread sequence that picks receivers is spread in space, too.
+// `views`, half of the points are in proportion to them instead, along the patches that patchesWhereSeen() gives. A side is left out when it
+// sees more backs than fronts, as the inside of a solid does, or nothing at all; where there are no solids (EmbreeScene::solids), only then.
+// Neighbours among the receivers face the same way and are near each other, so that a well-spread sequence that picks receivers is spread
+// in space, too.
 SurfaceSamples sampleSurfaces(const EmbreeScene& scene, std::size_t count, std::uint32_t seed, const ParallelFor& parallelFor,
                               std::span<const SurfaceView> views = {});
 

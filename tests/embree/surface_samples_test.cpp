@@ -13,9 +13,7 @@ namespace {
 
 constexpr std::size_t kCount = 4096;
 
-SurfaceSamples samplesOf(const Scene& scene, int threads = 2, uint seed = 1) {
-    return sampleSurfaces(EmbreeScene(scene), kCount, seed, tbbParallelFor(threads));
-}
+SurfaceSamples samplesOf(const Scene& scene) { return sampleSurfaces(EmbreeScene(scene), kCount, 1, tbbParallelFor(2)); }
 
 // A box whose faces look inwards, 2 x 1 x 3 m; the face at y = 0 is red, the others are white. A sheet of 0.5 m^2 may hang in it.
 Scene insideOfABox(bool withSheet = false, double scale = 1.0) {
@@ -127,10 +125,37 @@ TEST(SurfaceSamples, theSeenPartOfATriangleHasMoreOfThemThatStandForItsArea) {
 
 TEST(SurfaceSamples, areTheSameForASeedWhateverTheThreads) {
     const Scene scene = insideOfABox();
-    const SurfaceSamples one = samplesOf(scene, 1), two = samplesOf(scene, 2), other = samplesOf(scene, 2, 2);
-    ASSERT_EQ(one.receivers.size(), two.receivers.size());
-    for (std::size_t i = 0; i < one.receivers.size(); ++i) EXPECT_EQ(one.receivers[i].position, two.receivers[i].position);
-    EXPECT_NE(one.receivers[0].position, other.receivers[0].position);
+    const std::vector<SurfaceView> views(100, {2, scene.positions[scene.triangles[2].x]});
+    for (const std::vector<SurfaceView>& seen : {std::vector<SurfaceView>(), views}) {
+        const auto samples = [&](int threads, uint seed) { return sampleSurfaces(EmbreeScene(scene), kCount, seed, tbbParallelFor(threads), seen); };
+        const SurfaceSamples one = samples(1, 1), two = samples(2, 1), other = samples(2, 2);
+        ASSERT_EQ(one.receivers.size(), two.receivers.size());
+        for (std::size_t i = 0; i < one.receivers.size(); ++i) EXPECT_EQ(one.receivers[i].position, two.receivers[i].position);
+        EXPECT_EQ(one.area, two.area);
+        EXPECT_NE(one.receivers[0].position, other.receivers[0].position);
+    }
+}
+
+TEST(SurfaceSamples, lieOnTheirTrianglesWhereTheseAreCut) {
+    SmallScene small;
+    small.triangle({0, 0, 0}, {0, 0, 3}, {2, 0, 0}, small.material(glm::vec3(1.0f)));
+    small.triangle({0, 1, 0}, {2, 1, 0}, {0, 1, 3}, small.material(glm::vec3(1.0f)));  // what they see
+    const Scene scene = small.finish();
+    std::vector<SurfaceView> views;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const vec4 u = clvSobol4(i, 9u);
+        views.push_back({0, vec3(u.x * (2.0f - 2.0f * u.y / 3.0f), 0.0f, u.y)});
+    }
+    const SurfaceSamples samples = sampleSurfaces(EmbreeScene(scene), kCount, 1, tbbParallelFor(2), views);
+    std::size_t below = 0;
+    for (const ClvReceiver& r : samples.receivers) {
+        if (r.position.y > 0.5f) continue;
+        ++below;
+        EXPECT_GE(r.position.x, 0.0f);
+        EXPECT_GE(r.position.z, 0.0f);
+        EXPECT_LE(r.position.x / 2.0f + r.position.z / 3.0f, 1.0f + 1e-6f);
+    }
+    EXPECT_GT(below, kCount / 2);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "clv/stages/evaluate.h"
 #include "clv/stages/map_face.h"
 #include "clv/stages/merge.h"
+#include "clv/stages/walk_check.h"
 #include "parity/shader_stub.h"
 
 using namespace clv;
@@ -55,6 +56,9 @@ const std::vector<Layout>& layouts() {
           offsetof(ClvCascades, blendCells), offsetof(ClvCascades, pad0)}},
         {"stages/evaluate.h", "ClvReceiver", sizeof(ClvReceiver),
          {offsetof(ClvReceiver, position), offsetof(ClvReceiver, pad0), offsetof(ClvReceiver, normal), offsetof(ClvReceiver, pad1)}},
+        {"stages/walk_check.h", "ClvWalkCheck", sizeof(ClvWalkCheck),
+         {offsetof(ClvWalkCheck, begin), offsetof(ClvWalkCheck, end), offsetof(ClvWalkCheck, cells), offsetof(ClvWalkCheck, faults),
+          offsetof(ClvWalkCheck, farCell), offsetof(ClvWalkCheck, farAt)}},
         {"stages/map_face.h", "ClvMapFace", sizeof(ClvMapFace),
          {offsetof(ClvMapFace, origin), offsetof(ClvMapFace, light), offsetof(ClvMapFace, right), offsetof(ClvMapFace, depthScale), offsetof(ClvMapFace, up),
           offsetof(ClvMapFace, parallel), offsetof(ClvMapFace, forward), offsetof(ClvMapFace, pad0)}},

@@ -25,7 +25,8 @@ struct FurnaceRun {
     PipelineReport report;
     double raysOfBudget = 0.0;
 };
-// A wide square; the resolution is chosen then.
+
+// A wide square. With one the library chooses the resolution.
 struct Ground {
     double width = 0.0;     // m; 0: none
     bool isFloor = false;   // of the rooms, which have none of their own; else it lies a metre below them
@@ -149,7 +150,8 @@ double noiseOfAPoint(const FurnaceRun& a, const FurnaceRun& b) {
     return 100.0 * std::sqrt(0.5 * squares / double(a.irradiance.size())) / a.mean[0].x;
 }
 
-// Few of evenly spread samples of surfaces are in the room, and it is a few cells wide, which costs some per cent, or less than one.
+// Few of evenly spread samples of surfaces are in the room, and it is a few cells wide, or less than one. A few cells cost
+// some per cent, as the grid happens to lie: it lies the same for every seed.
 std::vector<StressFigure> onWideGround(bool isFloor, const StressSettings& settings) {
     const ClosedRoom room{glm::dvec3(0.95)};
     std::vector<StressFigure> figures;

@@ -28,12 +28,12 @@ inline ExactRay exactRay(const ClvVolume& v, const ClvRay& ray) {
     return exact;
 }
 
-// How far a place along a ray lies outside of a cell, in cells; at most 0 inside.
-inline double cellsApart(const ExactRay& ray, const ivec3& cell, double t) {
+// How far a place along a ray lies outside of a cell, in cells; below 0 inside.
+inline double cellsOutside(const ExactRay& ray, const ivec3& cell, double t) {
     const glm::dvec3 above = ray.origin + ray.direction * t - glm::dvec3(cell);
-    double apart = -1.0;
-    for (int axis = 0; axis < 3; ++axis) apart = largerOf(apart, std::max(-above[axis], above[axis] - 1.0));
-    return apart;
+    double outside = -1.0;
+    for (int axis = 0; axis < 3; ++axis) outside = largerOf(outside, std::max(-above[axis], above[axis] - 1.0));
+    return outside;
 }
 
 // The part of a ray inside the grid made wider by `margin` cells on all sides.

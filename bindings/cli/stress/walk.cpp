@@ -38,7 +38,7 @@ WalkErrors walkOne(const ClvVolume& v, const ClvRay& ray) {
         sum += piece;
         errors.negative += !(piece >= 0.0);
         errors.outside += clvCellInside(v, crossing.cell) == 0;
-        for (float t : {crossing.tBegin, crossing.tEnd}) errors.displaced = largerOf(errors.displaced, cellsApart(exact, crossing.cell, t) / exact.place);
+        for (float t : {crossing.tBegin, crossing.tEnd}) errors.displaced = largerOf(errors.displaced, cellsOutside(exact, crossing.cell, t) / exact.place);
         // Each step goes to a neighbour, forwards along one axis, so no cell comes twice.
         if (cells > 0) {
             const ivec3 step = crossing.cell - last;

@@ -10,15 +10,15 @@ struct ClvWalkCheck {
     float end;        // and where the last one ends; both 0 where there is none
     int cells;        // crossings
     int faults;       // crossings outside of the grid, not of the next cell forwards, or not joined to the one before; an endless walk
-    ivec3 apartCell;  // the cell from whose box a piece's begin or end lies farthest,
-    float apartAt;    // and where along the ray this is, in cells; 0 where there is no crossing
+    ivec3 farCell;    // the cell from whose box a piece's begin or end lies farthest, as floats tell: to some tenths of a last place,
+    float farAt;      // and where along the ray this is, in cells; 0 where there is no crossing
 };
 
-// How far a place along the ray lies outside of a cell, in cells; negative inside.
-CLV_FN float clvApart(ClvWalk walk, vec3 direction, ivec3 cell, float t) {
+// How far a place along the ray lies outside of a cell, in cells; below 0 inside.
+CLV_FN float clvOutsideOfCell(ClvWalk walk, vec3 direction, ivec3 cell, float t) {
     vec3 above = walk.origin - vec3(float(cell.x), float(cell.y), float(cell.z)) + direction * t;
-    vec3 apart = max(-above, above - vec3(1.0f, 1.0f, 1.0f));
-    return max(max(apart.x, apart.y), apart.z);
+    vec3 outside = max(-above, above - vec3(1.0f, 1.0f, 1.0f));
+    return max(max(outside.x, outside.y), outside.z);
 }
 
 CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
@@ -28,9 +28,9 @@ CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
     check.end = check.begin;
     check.cells = 0;
     check.faults = 0;
-    check.apartCell = walk.cell;
-    check.apartAt = check.begin;
-    float mostApart = -1.0f;
+    check.farCell = walk.cell;
+    check.farAt = check.begin;
+    float farthest = -1.0f;
     int most = volume.resolution.x + volume.resolution.y + volume.resolution.z;
     ivec3 last = walk.cell;
     while (walk.running == 1 && check.cells <= most) {
@@ -41,12 +41,12 @@ CLV_FN ClvWalkCheck clvCheckWalk(ClvVolume volume, ClvRay ray) {
         bool next = check.cells == 0 ? away == 0 : away == 1 && forwards > 0.0f;
         bool joined = crossing.tBegin == check.end && crossing.tEnd >= crossing.tBegin;
         if (!next || !joined || clvCellInside(volume, crossing.cell) == 0) check.faults += 1;
-        float apartBegin = clvApart(walk, ray.direction, crossing.cell, crossing.tBegin);
-        float apartEnd = clvApart(walk, ray.direction, crossing.cell, crossing.tEnd);
-        if (max(apartBegin, apartEnd) > mostApart) {
-            mostApart = max(apartBegin, apartEnd);
-            check.apartCell = crossing.cell;
-            check.apartAt = apartBegin > apartEnd ? crossing.tBegin : crossing.tEnd;
+        float begin = clvOutsideOfCell(walk, ray.direction, crossing.cell, crossing.tBegin);
+        float end = clvOutsideOfCell(walk, ray.direction, crossing.cell, crossing.tEnd);
+        if (max(begin, end) > farthest) {
+            farthest = max(begin, end);
+            check.farCell = crossing.cell;
+            check.farAt = begin > end ? crossing.tBegin : crossing.tEnd;
         }
         last = crossing.cell;
         check.end = crossing.tEnd;

@@ -1,0 +1,78 @@
+// What points see around them: the room that they are in, and nothing of the next one.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "bindings/cli/stress/whole_run.h"
+#include "bindings/cli/surroundings.h"
+#include "bindings/embree/task_pool.h"
+
+namespace clv::test {
+namespace {
+
+// Two closed rooms of 2 m, at x = 0 and x = 8 m.
+Scene twoRooms() {
+    SceneBuilder builder("rooms");
+    const std::uint32_t grey = builder.addMaterial({"grey", glm::vec3(0.5f), -1});
+    builder.beginNode("rooms");
+    for (double x : {0.0, 8.0}) addRoom(builder, grey, 1.0, {x, 0.0, 0.0});
+    return std::move(builder).finish("rooms");
+}
+
+std::vector<ClvReceiver> onFloorOfTheFirst(const Scene& scene, int count) {
+    std::vector<ClvReceiver> points;
+    for (int i = 0; i < count; ++i) points.push_back({vec3(-0.9f + 1.8f * float(i) / float(count), -1.0f, 0.2f) - vec3(scene.anchor), 0.0f, vec3(0.0f, 1.0f, 0.0f), 0.0f});
+    return points;
+}
+
+TEST(Surroundings, viewsFallOnAllWallsOfTheRoomAndOnNothingElse) {
+    const Scene scene = twoRooms();
+    const EmbreeScene embree(scene);
+    const std::vector<Look> looks = lookAround(embree, onFloorOfTheFirst(scene, 200), tbbParallelFor(2));
+    ASSERT_EQ(looks.size(), 200u);
+    const std::vector<SurfaceView> views = viewsOf(embree, looks, tbbParallelFor(2));
+    // 16 from each point, and 16 from every fourth place of them.
+    EXPECT_EQ(views.size(), 200u * (16u + 4u * 16u));
+    std::vector<int> counts(scene.triangles.size(), 0);
+    for (const SurfaceView& view : views) {
+        ++counts[view.triangle];
+        const glm::uvec3& c = scene.triangles[view.triangle];
+        const vec3 normal = glm::normalize(glm::cross(scene.positions[c.y] - scene.positions[c.x], scene.positions[c.z] - scene.positions[c.x]));
+        EXPECT_NEAR(glm::dot(view.position - scene.positions[c.x], normal), 0.0f, 1e-5f);
+    }
+    int seen = 0;
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+        const bool isFirst = scene.positions[scene.triangles[t].x].x + float(scene.anchor.x) < 4.0f;
+        EXPECT_EQ(counts[t] > 0, isFirst) << t;
+        seen += counts[t] > 0;
+    }
+    EXPECT_EQ(seen, 12) << "the floor too: from the walls";
+}
+
+TEST(Surroundings, areTheSameWhateverTheThreads) {
+    const Scene scene = twoRooms();
+    const EmbreeScene embree(scene);
+    const auto seenBy = [&](int threads) {
+        return viewsOf(embree, lookAround(embree, onFloorOfTheFirst(scene, 50), tbbParallelFor(threads)), tbbParallelFor(threads));
+    };
+    const auto one = seenBy(1), two = seenBy(2);
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(one[i].triangle == two[i].triangle && one[i].position == two[i].position);
+}
+
+TEST(Surroundings, nearSightIsWhatAQuarterOfThePointsSeeHalfOf) {
+    const Scene scene = twoRooms();
+    const EmbreeScene embree(scene);
+    const auto looks = lookAround(embree, onFloorOfTheFirst(scene, 200), tbbParallelFor(2));
+    std::vector<float> middles;
+    for (const Look& look : looks) middles.push_back(look.middle);
+    std::ranges::sort(middles);
+    EXPECT_EQ(nearSight(looks), middles[50]);
+    EXPECT_GT(middles.front(), 0.3f);
+    EXPECT_LT(middles.back(), 2.5f);
+    EXPECT_EQ(nearSight({}), kClvFar);
+}
+
+}  // namespace
+}  // namespace clv::test
