@@ -16,8 +16,10 @@ namespace {
 constexpr int kLastFed = 8;                        // the last bounce that is read from the volume of the one before
 constexpr int kLastWithoutLimit = 24;              // the same where there is no end to the light
 constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays that are left that a bounce leaves to later ones
+constexpr double kForTheRest = 0.0625;             // of all rays: a dim room keeps its light when that of the bright place beside it is gone
 constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left out
 constexpr double kWalked = 0.125, kSpread = 0.125;  // of the rays that are left to later bounces, those that find where their light is, and those that spread it
+constexpr float kNarrow = 0.75f;                   // cells: surfaces whose sight is nearer lie in a gap
 constexpr std::size_t kFewestToWalk = 128;         // rays
 // Of further bounces where none is given, by the rays of all of them.
 constexpr int kCoarse = 16, kMiddle = 32, kFine = 64;
@@ -67,6 +69,7 @@ public:
         for (int c = 0; c < 3; ++c) power_[c] = ratio_[c] < kLargestRatio ? power_[c] : 0.0;
         if (negligible() || !emitFrom(source)) return;
         // What is left: all later bounces at once.
+        left_ += budget_ * kForTheRest;
         for (Pair& one : pair) one.level.clear(), one.lighting.reset();
         addRest(fill, take);
     }
@@ -139,7 +142,14 @@ private:
         take(rest.level, 1.0f);
     }
 
-    // Surfaces send on what the volume says they receive; the sum over the surfaces is set to what the rays brought there, so that no
+    static float widestCell(std::span<const LitLevel> levels) {
+        float widest = 0.0f;
+        for (const LitLevel& level : levels) widest = std::max(widest, level.weight > 0.0 ? level.light->level().volume.cellSize : 0.0f);
+        return widest;
+    }
+
+    // Surfaces send on what the volume says they receive, but for those in gaps much narrower than its cells, which would read the light before
+    // the gap: they are taken as dark. The sum over the surfaces is set to what the rays brought there, so that no
     // error of the volume's total grows from bounce to bounce. False where they send nothing.
     bool emitFrom(std::span<const LitLevel> source) {
         const SurfaceSamples& surfaces = job_.surfaces;
@@ -147,6 +157,8 @@ private:
         job_.clock.time("rsm", [&] {
             std::vector<glm::vec3> irradiance(surfaces.receivers.size(), glm::vec3(0.0f));
             addIrradiance(source, &Lookups::surfaces, job_.layout, surfaces.receivers, 1.0f, job_.parallelFor, irradiance);
+            const float narrow = kNarrow * widestCell(source);
+            for (std::size_t k = 0; k < irradiance.size(); ++k) irradiance[k] *= surfaces.sight[k] < narrow ? 0.0f : 1.0f;
             emitters_.assign((irradiance.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
             glm::dvec3 sum(0.0);
             for (std::size_t k = 0; k < irradiance.size(); ++k) sum += glm::dvec3(surfaces.albedo[k] * irradiance[k]) * double(surfaces.area[k]);
@@ -188,7 +200,7 @@ private:
     const glm::dvec3 first_;
     glm::dvec3 ratio_;   // by which the power falls from bounce to bounce, about
     const double budget_;  // rays
-    double left_ = budget_;
+    double left_ = budget_ * (1.0 - kForTheRest);
     std::vector<ClvRsmTexel> emitters_;
 };
 

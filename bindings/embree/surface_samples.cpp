@@ -9,7 +9,8 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kPiece = 512;  // points
+constexpr std::size_t kPiece = 512;               // points
+constexpr int kSightRank = kSeenRays * 3 / 4;     // more than what is seen of two walls in a corner
 
 // The bits of a 10-bit number, two places apart.
 std::uint32_t spread(std::uint32_t x) {
@@ -52,6 +53,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
     all.receivers.resize(2 * count);
     all.albedo.resize(count);
     all.area.resize(count);
+    all.sight.resize(2 * count);
     std::vector<std::uint8_t> kept(2 * count);
     parallelFor((count + kPiece - 1) / kPiece, [&](std::size_t piece) {
         for (std::size_t k = piece * kPiece; k < std::min(count, (piece + 1) * kPiece); ++k) {
@@ -69,7 +71,12 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
             for (int side = 0; side < 2; ++side) {
                 ClvReceiver& receiver = all.receivers[2 * k + side];
                 receiver = {a + v1 * (b - a) + v2 * (d - a), 0.0f, side == 0 ? normal : -normal, 0.0f};
-                const SeenFaces seen = seenFaces(embree, receiver, clvHashCombine(seed, uint(2 * k + side)));
+                std::vector<float> distances;
+                const SeenFaces seen = seenFaces(embree, receiver, clvHashCombine(seed, uint(2 * k + side)),
+                                                 [&](const vec3&, const ClvHit& hit) { distances.push_back(hit.distance); });
+                distances.resize(kSeenRays, kClvFar);
+                std::ranges::nth_element(distances, distances.begin() + kSightRank);
+                all.sight[2 * k + side] = distances[kSightRank];
                 kept[2 * k + side] = embree.solids() ? seen.fronts > seen.backs : seen.fronts + seen.backs > 0;
             }
         }
@@ -84,6 +91,7 @@ SurfaceSamples sampleSurfaces(const EmbreeScene& embree, std::size_t count, std:
         samples.receivers.push_back(all.receivers[k]);
         samples.albedo.push_back(all.albedo[k / 2]);
         samples.area.push_back(all.area[k / 2]);
+        samples.sight.push_back(all.sight[k]);
     }
     return samples;
 }

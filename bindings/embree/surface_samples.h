@@ -16,6 +16,7 @@ struct SurfaceSamples {
     std::vector<ClvReceiver> receivers;
     std::vector<glm::vec3> albedo;       // linear RGB, a receiver each
     std::vector<float> area;             // m^2 that each receiver stands for
+    std::vector<float> sight;            // m; three quarters of what is before each receiver are nearer; kClvFar where less of it is surfaces
 };
 
 // m^2, each triangle once.

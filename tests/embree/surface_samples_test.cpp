@@ -123,6 +123,19 @@ TEST(SurfaceSamples, theSeenPartOfATriangleHasMoreOfThemThatStandForItsArea) {
     EXPECT_NEAR(area, 22e6, 0.05e6);
 }
 
+TEST(SurfaceSamples, sightIsShortInAGapAndNotInACorner) {
+    SmallScene small;
+    const auto white = small.material(glm::vec3(1.0f));
+    small.rectangle({0, 0, 0}, {0, 0, 3}, {2, 0, 0}, white);
+    small.rectangle({0, 0.01, 0}, {2, 0, 0}, {0, 0, 3}, white);  // faces the first, 1 cm above it
+    const SurfaceSamples gap = samplesOf(small.finish()), room = samplesOf(insideOfABox());
+    ASSERT_GT(gap.receivers.size(), kCount / 2);
+    ASSERT_EQ(gap.sight.size(), gap.receivers.size());
+    for (const float sight : gap.sight) EXPECT_GE(sight, 0.0099f);
+    EXPECT_GT(std::ranges::count_if(gap.sight, [](float sight) { return sight < 0.04f; }), std::ptrdiff_t(gap.sight.size() * 9 / 10));
+    EXPECT_LT(std::ranges::count_if(room.sight, [](float sight) { return sight < 0.3f; }), std::ptrdiff_t(room.sight.size() / 50));
+}
+
 TEST(SurfaceSamples, areTheSameForASeedWhateverTheThreads) {
     const Scene scene = insideOfABox();
     const std::vector<SurfaceView> views(100, {2, scene.positions[scene.triangles[2].x]});

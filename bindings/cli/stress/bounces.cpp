@@ -17,6 +17,7 @@ constexpr int kBouncesWithoutLimit = 24;  // that are given where the series has
 struct ClosedRoom {
     glm::dvec3 albedo;
     glm::dvec3 center{0.0};
+    bool hasRug = false;  // 1 mm above the floor, 1.8 m wide; points are not on the floor then
 };
 
 struct FurnaceRun {
@@ -53,7 +54,10 @@ FurnaceRun lightRooms(std::span<const ClosedRoom> rooms, const StressSettings& s
         if (ground.isFloor) addRoomWithoutFloor(builder, material, room.center);
         else addRoom(builder, material, 1.0, room.center);
         builder.addLight("lamp", makePointLight(glm::vec3(1.0f)), room.center + glm::dvec3(0.2, 0.1, -0.3));
-        for (const ReferencePoint& point : pointsOnWalls(1.0, room.center)) points.push_back(point);
+        if (room.hasRug) addBox(builder, room.center - glm::dvec3(0.0, 0.989, 0.0), {0.9, 0.0, 0.0}, {0.0, 0.01, 0.0}, {0.0, 0.0, 0.9}, material);
+        for (const ReferencePoint& point : pointsOnWalls(1.0, room.center)) {
+            if (!room.hasRug || point.normal.y < 0.5f) points.push_back(point);
+        }
     }
     if (ground.width > 0.0) {
         builder.beginNode("ground");
@@ -143,6 +147,13 @@ std::vector<StressFigure> twoRooms(const StressSettings& settings) {
     return figures;
 }
 
+// The gap below it is narrower than cells, which would say that it is as bright as what is above it.
+std::vector<StressFigure> withRug(const StressSettings& settings) {
+    const ClosedRoom room{glm::dvec3(0.8), glm::dvec3(0.0), true};
+    const FurnaceRun run = lightRooms({&room, 1}, settings);
+    return {{"off rho / (1 - rho) of the room without it, %", percentOff(run.mean[0].x, series(0.8)), 3.0}};
+}
+
 // Standard deviation of one point's irradiance from run to run, of two of them, %.
 double noiseOfAPoint(const FurnaceRun& a, const FurnaceRun& b) {
     double squares = 0.0;
@@ -179,6 +190,7 @@ std::vector<StressCase> bounceCases() {
     }
     cases.push_back({"bounces", "a closed room of albedo 0.99, 0.9 and 0.5", "each channel reaches its own series", coloured});
     cases.push_back({"bounces", "closed rooms of albedo 0.99 and 0.9 in one scene", "each room reaches its own series", twoRooms});
+    cases.push_back({"bounces", "a closed room of albedo 0.8 with a rug 1 mm above its floor", "it is as bright as a room without one", withRug});
     for (bool isFloor : {false, true}) {
         cases.push_back({"bounces", fmt::format("a closed room of 2 m {} a ground of 60 m to 6 km", isFloor ? "whose floor is part of" : "on"),
                          "all bounces reach the closed form, or cells are said to be too wide", [isFloor](const StressSettings& s) { return onWideGround(isFloor, s); }});
