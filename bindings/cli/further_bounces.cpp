@@ -17,7 +17,7 @@ constexpr int kLastFed = 8;                        // the last bounce that is re
 constexpr int kLastWithoutLimit = 24;              // the same where there is no end to the light
 constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays that are left that a bounce leaves to later ones
 constexpr double kForTheRest = 0.0625;             // of all rays: a dim room keeps its light when that of the bright place beside it is gone
-constexpr double kNegligible = 1e-3;               // share of the power at which further bounces are left out
+constexpr double kNegligible = 1e-4;               // share of the power at which further bounces are left out
 constexpr double kWalked = 0.125, kSpread = 0.125;  // of the rays that are left to later bounces, those that find where their light is, and those that spread it
 constexpr float kNarrow = 0.75f;                   // cells: surfaces whose sight is nearer lie in a gap
 constexpr std::size_t kFewestToWalk = 128;         // rays

@@ -79,7 +79,7 @@ void LightJob::heedScene() {
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
     embree_->setSolids(!pointHeed.sheets);
     if (grids.empty() && cellsInSight(finestResolution()) < kExact)
-        report.warnings.push_back(fmt::format("a quarter of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
+        report.warnings.push_back(fmt::format("a tenth of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
                                               "missing; a larger --resolution or less of a scene has smaller cells",
                                               sight, volumeOver(scene, finestResolution(), options).cellSize));
 }

@@ -42,7 +42,7 @@ std::vector<Look> lookAround(const EmbreeScene& scene, std::span<const ClvReceiv
 float nearSight(std::span<const Look> looks) {
     std::vector<float> middles;
     for (const Look& look : looks) middles.push_back(look.middle);
-    return quantile(middles, 0.25);
+    return quantile(middles, 0.1);
 }
 
 std::vector<SurfaceView> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {

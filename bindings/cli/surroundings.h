@@ -25,7 +25,7 @@ struct Look {
 // Of a thousand of the points, or of all where there are fewer.
 std::vector<Look> lookAround(const EmbreeScene& scene, std::span<const ClvReceiver> points, const ParallelFor& parallelFor);
 
-// m. A quarter of the points see half of what they see from nearer than this; kClvFar where they see nothing.
+// m. A tenth of the points see half of what they see from nearer than this; kClvFar where they see nothing.
 float nearSight(std::span<const Look> looks);
 
 // Where looks fall: of the points, and of places that they see.

@@ -134,7 +134,7 @@ TEST(Warnings, sayWhereCellsAreWiderThanWhatPointsSee) {
     LightOptions options = optionsFor(false, 1024);
     for (const auto& [resolution, isWide] : {std::pair(1, true), std::pair(2, true), std::pair(4, false)}) {
         options.resolution = resolution;
-        EXPECT_EQ(isWarned(lightOf(room, options, wallsAround(0.0)), "a quarter of the points see surfaces from"), isWide) << resolution;
+        EXPECT_EQ(isWarned(lightOf(room, options, wallsAround(0.0)), "a tenth of the points see surfaces from"), isWide) << resolution;
     }
 }
 
