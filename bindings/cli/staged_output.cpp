@@ -76,7 +76,7 @@ std::string StagedOutput::path(const std::string& name) {
     const fs::path holder = folderOf(target);
     if (const fs::file_type type = typeOf(holder); type != fs::file_type::not_found && type != fs::file_type::directory)
         throw InputError(fmt::format("{}: expected a folder, or a name for a new one", holder.string()));
-    fs::create_directories(folderOf(hidden_ / name));
+    withoutInterrupt([&] { fs::create_directories(folderOf(hidden_ / name)); });  // or it would come back after an interrupt has removed it
     // Renaming over a device such as /dev/null would replace it for everybody.
     if (const fs::file_type type = typeOf(target); type != fs::file_type::not_found && type != fs::file_type::regular)
         throw InputError(fmt::format("{}: expected the name of a file, but something else has that name", target.string()));

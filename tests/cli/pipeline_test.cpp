@@ -132,7 +132,7 @@ TEST(Warnings, sayWhatIsDarkOrNotItsOwnLight) {
 TEST(Warnings, sayWhereCellsAreWiderThanWhatPointsSee) {
     const Scene room = rooms({glm::vec3(0.5f)});
     LightOptions options = optionsFor(false, 1024);
-    for (const auto& [resolution, isWide] : {std::pair(1, true), std::pair(2, true), std::pair(4, false)}) {
+    for (const auto& [resolution, isWide] : {std::pair(1, true), std::pair(2, true), std::pair(8, false)}) {
         options.resolution = resolution;
         EXPECT_EQ(isWarned(lightOf(room, options, wallsAround(0.0)), "a tenth of the points see surfaces from"), isWide) << resolution;
     }
