@@ -50,7 +50,7 @@ Leaves::iterator halve(Leaves leaves) {
     const auto [least, most] = std::ranges::minmax(leaves, {}, &Leaf::area);
     if (most.area > kLikeSizes * least.area) {
         const float between = std::sqrt(least.area) * std::sqrt(most.area);
-        return std::ranges::partition(leaves, [&](const Leaf& leaf) { return leaf.area <= between; }).begin();
+        return std::partition(leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return leaf.area <= between; });
     }
     const auto middle = leaves.begin() + std::ptrdiff_t(leaves.size() / 2);
     std::ranges::nth_element(leaves, middle, {}, [axis = longestAxis(leaves)](const Leaf& leaf) { return std::pair(leaf.place[axis], leaf.triangle); });
