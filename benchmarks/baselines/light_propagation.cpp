@@ -164,7 +164,7 @@ private:
             const ClvReceiver& surfel = surfaces.receivers[k];
             const vec3 place = (surfel.position - volume_.origin) / volume_.cellSize;
             const ivec3 corner = clamp(ivec3(floor(place + 0.5f)), ivec3(0), lastCorner);
-            const vec4 lobe = cosineLobe(-surfel.normal) * (surfaces.area[k] / (volume_.cellSize * volume_.cellSize));
+            const vec4 lobe = cosineLobe(-surfel.normal) * (surfaces.area / (volume_.cellSize * volume_.cellSize));
             for (int band = 0; band < kBands; ++band) blocked.plane(band)[blocked.index(corner)] += lobe[band];
         }
         open_ = Planes(volume_.resolution, kLinks + 1);

@@ -1,6 +1,8 @@
 #include "bindings/cli/bake_light.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
 #include "bindings/cli/first_bounce.h"
 #include "bindings/cli/further_bounces.h"
@@ -8,13 +10,13 @@
 namespace clv {
 namespace {
 
-// Deposits of the levels, times `scale`, on top of those of the cascades. A level with one estimate adds it to both.
-void addDeposits(std::span<const LitLevel> levels, float scale, std::vector<BakedCascade>& cascades) {
+// Deposits of the levels on top of those of the cascades. A level with one estimate adds it to both.
+void addDeposits(std::span<const LitLevel> levels, std::vector<BakedCascade>& cascades) {
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const auto halves = levels[i].light->histories();
         for (std::size_t half = 0; half < cascades[i].estimates.size(); ++half) {
             const std::span<const float> from = halves[std::min(half, halves.size() - 1)];
-            std::ranges::transform(cascades[i].estimates[half], from, cascades[i].estimates[half].begin(), [&](float sum, float more) { return sum + scale * more; });
+            std::ranges::transform(cascades[i].estimates[half], from, cascades[i].estimates[half].begin(), std::plus<float>());
         }
     }
 }
@@ -27,7 +29,7 @@ std::vector<BakedCascade> cascadesFrom(std::span<const LitLevel> levels) {
         cascade.estimates.resize(halves.size(), std::vector<float>(halves[0].size(), 0.0f));
         cascade.samples.resize(cascade.level.slots.size(), float(lit.light->rays()));
     }
-    addDeposits(levels, 1.0f, cascades);
+    addDeposits(levels, cascades);
     return cascades;
 }
 
@@ -55,7 +57,10 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
             volume.frame = frame;
             volume.cascades = cascadesFrom(first.levels());
         };
-        first.run([&](std::uint32_t frame) {
+        std::optional<FurtherBounces> further;
+        if (job.needs.feedback) further.emplace(job);
+        first.run([&](std::uint32_t frame, const std::vector<ClvRsmTexel>& lit, std::size_t rays) {
+            if (further) further->follow(lit, rays, first.levels());
             if (options.frames <= 1) return;
             keep(frame);
             onFrame(volume);
@@ -63,8 +68,7 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
         if (first.levels().empty()) throw InputError(scene.name + ": its lights meet no surface; expected light to bake");
         if (options.frames > 1) return job.takeReport();
         keep(0);
-        const auto take = [&](std::span<const LitLevel> levels, float scale) { addDeposits(levels, scale, volume.cascades); };
-        if (job.needs.feedback) addFurtherBounces(job, first.levels(), first.sent(), take);
+        if (further) addDeposits(further->finish(first.levels()), volume.cascades);
         onFrame(volume);
         return job.takeReport();
     });

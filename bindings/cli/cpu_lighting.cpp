@@ -1,5 +1,6 @@
 #include "bindings/cli/cpu_lighting.h"
 
+#include "bindings/cli/light_walk.h"
 #include "bindings/cli/scene_facts.h"
 #include "bindings/embree/light_maps.h"
 #include "clv/cpu/still_lighting.h"
@@ -38,7 +39,7 @@ public:
         clock_.time("rsm", [&] { sampler_.build(emitters, kEmitterWidth, parallelFor_); });
     }
 
-    void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
+    void draw(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
         constexpr std::size_t kPiece = 2048;
         parallelFor_((rays.size() + kPiece - 1) / kPiece, [&](std::size_t piece) {
             const std::size_t first = piece * kPiece, count = std::min(kPiece, rays.size() - first);
@@ -63,14 +64,16 @@ public:
         clock_.time("inject", [&] { lighting_.inject(volume); });
         clock_.time("merge", [&] { lighting_.merge(volume); });
     }
-    SentPower sent() const override {
-        SentPower sum;
+    std::vector<ClvRsmTexel> takeLit() override {
         const auto rays = lighting_.currentRays();
-        for (std::size_t k = 0; k < rays.size(); ++k) {
-            sum.flux += glm::dvec3(rays[k].flux);
-            if (hits_[k].primitive != kClvNoPrimitive) sum.on += glm::dvec3(rays[k].flux * hits_[k].albedo);
-        }
-        return {sum.flux / double(rays.size()), sum.on / double(rays.size())};
+        std::vector<ClvRsmTexel> lit;
+        addLit(rays, hits_, 1.0f / float(rays.size()), lit);
+        return lit;
+    }
+    void add(std::span<const ClvRay> rays, LightLevel& level) override {
+        Volume& volume = static_cast<CpuLevel&>(level).volume;
+        clock_.time("inject", [&] { lighting_.inject(volume, rays); });
+        clock_.time("merge", [&] { volume.merge(double(rays.size()), 1.0f / float(rays.size()), parallelFor_); });
     }
 
 private:

@@ -25,16 +25,12 @@ void FirstBounce::addLevel(int resolution, Level level) {
     levels_.push_back(job_.makeLit(*lighting_, resolution, std::move(level), std::move(lookups)));
 }
 
-void FirstBounce::shoot(std::size_t count) {
+std::size_t FirstBounce::shoot(std::size_t count) {
     std::vector<LightLevel*> levels;
     for (const LitLevel& level : levels_) levels.push_back(level.light.get());
     const std::size_t rays = lighting_->shoot(count, levels);
-    job_.report.rays += rays;
-    if (!job_.needs.feedback) return;
-    const SentPower sent = lighting_->sent();
-    const double share = double(rays) / double(job_.report.rays - pilots_);
-    sent_.flux += (sent.flux - sent_.flux) * share;
-    sent_.on += (sent.on - sent_.on) * share;
+    job_.report.rays += rays, shot_ += rays;
+    return rays;
 }
 
 // A few rays show where the light goes; where much of it leaves the scene, the others are guided. False where the lights reach nothing.
@@ -43,7 +39,7 @@ bool FirstBounce::pilot(std::uint64_t budget) {
     std::vector<ClvRay> rays(std::size_t(std::min<std::uint64_t>(kMostPilots, budget / kPilotShare)));
     guide_.emplace(job_.scene.bounds.lo, job_.scene.bounds.hi);
     job_.clock.time("guide", [&] {
-        lighting_->pilots(clvHashCombine(job_.seed, 0x7u), rays);
+        lighting_->draw(clvHashCombine(job_.seed, 0x7u), rays);
         guide_->learn(rays);
         guide_->finish();
     });
@@ -74,7 +70,6 @@ void FirstBounce::run(const AfterRound& afterRound) {
     const std::uint64_t judged = job_.automatic ? std::bit_floor(std::max<std::uint64_t>(budget / 3, 1)) : 0;
     std::size_t round = options.frames > 1 ? std::size_t((budget + options.frames - 1) / options.frames) : kFirstRound;
     if (job_.automatic) round = std::size_t(std::min<std::uint64_t>(round, judged));
-    const double timeForThis = options.allBounces ? 0.5 * options.seconds : options.seconds;
     std::uint64_t done = 0, sinceMaps = 0;
     for (std::uint32_t pass = 0; done < budget; ++pass) {
         const double before = progress.seconds();
@@ -82,18 +77,16 @@ void FirstBounce::run(const AfterRound& afterRound) {
             lighting_->renderMaps(pass);
             sinceMaps = 0;
         }
-        const std::uint64_t earlier = job_.report.rays;
-        shoot(std::size_t(std::min<std::uint64_t>(round, budget - done)));
-        const std::uint64_t count = job_.report.rays - earlier;
+        const std::size_t count = shoot(std::size_t(std::min<std::uint64_t>(round, budget - done)));
         done += count;
         sinceMaps += count;
         const double now = progress.seconds();
         // With a budget of time, as many rays are still to come as the pace so far promises.
-        const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * timeForThis / std::max(now, 1e-6)) : double(budget);
-        if (job_.automatic) choice_.judge(*this, double(job_.report.rays - pilots_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
-        if (afterRound) afterRound(pass);
-        if (options.seconds > 0.0 && now + (now - before) > timeForThis) break;
-        progress.update(options.seconds > 0.0 ? now / timeForThis : double(done) / double(budget));
+        const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * options.seconds / std::max(now, 1e-6)) : double(budget);
+        if (job_.automatic) choice_.judge(*this, double(shot_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
+        if (afterRound) afterRound(pass, job_.needs.feedback ? lighting_->takeLit() : std::vector<ClvRsmTexel>(), count);
+        if (options.seconds > 0.0 && now + (now - before) > options.seconds) break;
+        progress.update(options.seconds > 0.0 ? now / options.seconds : double(done) / double(budget));
         if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestShot : std::min(2 * round, kLargestShot);
     }
     for (const LitLevel& level : levels_) {

@@ -11,21 +11,20 @@ class FirstBounce : private LevelsInPlay {
 public:
     explicit FirstBounce(LightJob& job) : job_(job) {}
 
-    // Called after each round of rays, of which a number of frames has as many.
-    using AfterRound = std::function<void(std::uint32_t round)>;
+    // Called after each round of rays, of which a number of frames has as many; with what the surfaces that they hit send on, where there
+    // are further bounces, and the number of these rays.
+    using AfterRound = std::function<void(std::uint32_t round, const std::vector<ClvRsmTexel>& lit, std::size_t rays)>;
 
     // Spends the rays that the options give it; says in the job's report what it took.
     void run(const AfterRound& afterRound = {});
 
     // The levels, mixed, give one bounce.
     std::span<const LitLevel> levels() const { return levels_; }
-    // Mean over all rays, where there are further bounces.
-    const SentPower& sent() const { return sent_; }
 
 private:
     void addLevel(int resolution);
     void addLevel(int resolution, Level level);
-    void shoot(std::size_t count);
+    std::size_t shoot(std::size_t count);
     bool pilot(std::uint64_t budget);
 
     int count() const override { return int(levels_.size()); }
@@ -40,8 +39,7 @@ private:
     std::vector<LitLevel> levels_;  // coarse to fine, or those of the job's grids
     LevelChoice choice_;
     std::optional<RayGuide> guide_;
-    std::size_t pilots_ = 0;
-    SentPower sent_;
+    std::uint64_t pilots_ = 0, shot_ = 0;  // rays
 };
 
 }  // namespace clv

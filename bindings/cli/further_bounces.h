@@ -1,15 +1,34 @@
-// Light that surfaces send on, bounce after bounce, each read from the volume of the one before.
+// All bounces after the first, in levels like those of the first.
 #pragma once
-#include <functional>
+#include <vector>
 
 #include "bindings/cli/light_job.h"
+#include "bindings/cli/light_walk.h"
 
 namespace clv {
 
-// Takes the light of some levels, times `scale`, on top of what it has.
-using TakeLight = std::function<void(std::span<const LitLevel> levels, float scale)>;
+class FurtherBounces {
+public:
+    explicit FurtherBounces(LightJob& job);
 
-// Hands all bounces after the first to `take`, one after the other. `first`: the levels of the first bounce; sent: their light's.
-void addFurtherBounces(LightJob& job, std::span<const LitLevel> first, const SentPower& sent, const TakeLight& take);
+    // lit: what surfaces send on that the last `rays` rays of the first bounce met, whose levels are in play. As many rays follow it.
+    void follow(std::span<const ClvRsmTexel> lit, std::size_t rays, std::span<const LitLevel> first);
+    // Levels of the same weights as those of the first bounce; without light where nothing was sent on. The job's report is told what it took.
+    std::span<const LitLevel> finish(std::span<const LitLevel> first);
+
+private:
+    void walk(std::span<const LitLevel> first);
+    void walk(std::size_t rays);
+    void takeLevels(std::span<const LitLevel> first);
+
+    LightJob& job_;
+    std::unique_ptr<Lighting> lighting_;
+    std::vector<LitLevel> levels_;
+    LightWalk walk_;
+    std::uint32_t walks_ = 0;
+    std::vector<ClvRsmTexel> lit_;  // to be followed; flux times the rays of its shot
+    std::size_t shot_ = 0;          // rays that met them
+    double left_ = 0.0;             // rays that may be taken
+};
 
 }  // namespace clv

@@ -19,8 +19,6 @@ namespace {
 
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
-constexpr std::size_t kSurfaceSamples = 32 << 10;  // that send the light of further bounces
-constexpr double kSightSamples = 6.0;              // distances between evenly spread ones, below which points look from near
 constexpr float kExact = 2.0f;                     // cells in sight, below which light is said to be inexact
 
 void moveTo(Scene& scene, const glm::dvec3& anchor) {
@@ -48,7 +46,6 @@ LightJob::LightJob(const Scene& s, const LightOptions& o, std::uint32_t seedOfAl
             proxy_.emplace(*proxyScene_);
         }
         heedScene();
-        if (needs.feedback) chooseSurfaces();
         if (automatic) chooseJudges();
         const EmbreeScene& target = proxy_ ? *proxy_ : *embree_;
         if (options.backend.choice == "vulkan") {
@@ -84,13 +81,6 @@ void LightJob::heedScene() {
                                               sight, volumeOver(scene, finestResolution(), options).cellSize));
 }
 
-// Evenly spread, and where the points see little of a wide scene, half of them there.
-void LightJob::chooseSurfaces() {
-    std::vector<SurfaceView> views;
-    if (sight < kSightSamples * std::sqrt(surfaceArea(embree_->scene()) / double(kSurfaceSamples))) views = viewsOf(*embree_, looks_, parallelFor);
-    surfaces = sampleSurfaces(*embree_, kSurfaceSamples, clvHashCombine(seed, 0x5u), parallelFor, views);
-}
-
 // Some of the points, and with few of them some that the cameras see.
 void LightJob::chooseJudges() {
     const std::size_t count = std::min(points.size(), kJudges);
@@ -106,10 +96,8 @@ Level LightJob::makeLevel(int resolution) {
     clock.time("setup", [&] {
         const ClvVolume volume = volumeOver(scene, resolution, options);
         std::vector<std::uint8_t> needed = neededCells(volume, points);
-        for (const auto* more : {&judges, &surfaces.receivers}) {
-            const auto also = neededCells(volume, *more);
-            for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= also[i];
-        }
+        const std::vector<std::uint8_t> also = neededCells(volume, judges);
+        for (std::size_t i = 0; i < needed.size(); ++i) needed[i] |= also[i];
         level = buildLevel(volume, embree_->probe(), needed, parallelFor);
     });
     return level;
@@ -125,7 +113,7 @@ std::shared_ptr<const Lookups> LightJob::makeLookups(const Level& level) {
     std::shared_ptr<const Lookups> lookups;
     clock.time("setup", [&] {
         const auto of = [&](const std::vector<ClvReceiver>& receivers) { return LookupTable(level, receivers, {}, parallelFor); };
-        lookups = std::make_shared<const Lookups>(Lookups{of(points), of(judges), of(surfaces.receivers)});
+        lookups = std::make_shared<const Lookups>(Lookups{of(points), of(judges)});
     });
     return lookups;
 }

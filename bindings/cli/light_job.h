@@ -8,7 +8,6 @@
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/stage_clock.h"
 #include "bindings/cli/surroundings.h"
-#include "bindings/embree/surface_samples.h"
 #include "clv/plan/needs.h"
 
 namespace clv {
@@ -47,15 +46,13 @@ struct LightJob {
     const int halves;      // of the rays
     const DepositLayout layout;
     std::vector<ClvReceiver> points, judges;
-    SurfaceSamples surfaces;  // that send the light of further bounces
-    float sight = kClvFar;    // m, from which points see surfaces: nearSight()
+    float sight = kClvFar;  // m, from which points see surfaces: nearSight()
     StageClock clock;
     PipelineReport report;
 
 private:
     int finestResolution() const;
     void heedScene();
-    void chooseSurfaces();
     void chooseJudges();
 
     std::vector<Look> looks_;  // of the points

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bindings/embree/surface_samples.h"
+#include "bindings/embree/surface_order.h"
 #include "clv/math/hash.h"
 #include "clv/stages/rays.h"
 #include "clv/stages/rsm.h"
@@ -11,24 +11,12 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kFewestRays = 32;      // of a bounce: with fewer what is left is extrapolated
-constexpr double kNegligible = 1e-3;         // share of all the walk's light at which the rest is extrapolated
+constexpr double kFewestRays = 32.0;               // of a bounce
+constexpr double kReserved = 128.0;                // one ray in so many spreads what is left, and as many stand for it
+constexpr double kNegligible = 1e-5;               // share of all light at which the rest is extrapolated
+constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays left to later bounces by the first call, which does not know how much light they have
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
-
-// By which the power of each channel falls from bounce to bounce, over the later half of them.
-glm::dvec3 paceOf(std::span<const glm::dvec3> power) {
-    glm::dvec3 before(0.0), after(0.0), pace(0.0);
-    for (std::size_t k = (power.size() - 1) / 2; k + 1 < power.size(); ++k) before += power[k], after += power[k + 1];
-    for (int c = 0; c < 3; ++c) pace[c] = before[c] > 0.0 ? std::min(after[c] / before[c], kLargestRatio) : 0.0;
-    return pace;
-}
-
-void fillRow(std::vector<ClvRsmTexel>& emitters) {
-    emitters.resize((emitters.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
-}
-
-}  // namespace
 
 glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters) {
     glm::dvec3 sum(0.0);
@@ -36,49 +24,93 @@ glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters) {
     return sum;
 }
 
-WalkedLight walkOn(Lighting& lighting, std::span<const ClvRsmTexel> first, std::uint64_t rays, std::uint32_t seed, const Bounds& bounds) {
-    WalkedLight walked;
-    walked.emitters.assign(first.begin(), first.end());
-    std::vector<ClvRsmTexel> lit(first.begin(), first.end());
-    std::vector<ClvRay> drawn;
-    std::vector<ClvHit> hits;
-    std::vector<glm::dvec3> power = {fluxOf(lit)};
-    double sum = total(power[0]);
-    // A share of the rays begins the walk, and as many end it: the places of the last bounce stand for all after it.
-    const std::size_t many = std::clamp<std::size_t>(std::size_t(rays / 16), kFewestRays, kMostWalked);
-    std::size_t count = many;
-    for (bool last = false; total(power.back()) > 0.0;) {
-        lighting.emit(lit);
-        drawn.resize(count), hits.resize(count);
-        lighting.pilots(clvHashCombine(seed, uint(power.size())), drawn, hits);
-        walked.rays += count;
-        lit.clear();
-        for (std::size_t k = 0; k < count; ++k) {
-            const ClvRsmTexel texel = clvRsmTexelFromHit(drawn[k], hits[k], 1.0f / float(count));
-            if (clvTexelWeight(texel) > 0.0f) lit.push_back(texel);
-        }
-        sortAlongSurfaces(lit, bounds);
-        power.push_back(fluxOf(lit));
-        const glm::dvec3 pace = paceOf(power);
-        if (last) {
-            // What is left falls in a geometric series.
-            for (ClvRsmTexel& texel : lit) texel.flux /= vec3(1.0 - pace);
-        }
-        walked.emitters.insert(walked.emitters.end(), lit.begin(), lit.end());
-        const double before = total(power[power.size() - 2]), now = total(power.back());
-        if (last || !(now > 0.0)) break;
-        sum += now;
-        // As many fewer as there is less light, and no more than leave as many to all later bounces.
-        const double ratio = total(power.back() * pace) / now, left = double(rays) - double(walked.rays + many);
-        count = std::size_t(std::max(std::min(double(count) * now / before, left * (1.0 - ratio)), 0.0));
-        last = count < kFewestRays || now < kNegligible * (1.0 - ratio) * sum;
-        if (last) count = many;
-        fillRow(lit);
+// By which the power of each channel falls from bounce to bounce, over the later half of them.
+glm::dvec3 paceOf(std::span<const glm::dvec3> power) {
+    glm::dvec3 before(0.0), after(0.0), pace(0.0);
+    for (std::size_t k = (power.size() - 1) / 2; k + 1 < power.size(); ++k) before += power[k], after += power[k + 1];
+    for (int c = 0; c < 3; ++c) pace[c] = before[c] > 0.0 ? after[c] / before[c] : 0.0;
+    return pace;
+}
+
+}  // namespace
+
+void addLit(std::span<const ClvRay> rays, std::span<const ClvHit> hits, float share, std::vector<ClvRsmTexel>& lit) {
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const ClvRsmTexel texel = clvRsmTexelFromHit(rays[k], hits[k], share);
+        if (clvTexelWeight(texel) > 0.0f) lit.push_back(texel);
     }
-    walked.bounces = int(power.size()) - 1;
-    sortAlongSurfaces(walked.emitters, bounds);
-    fillRow(walked.emitters);
-    return walked;
+}
+
+// The light of the places that the last bounce lit, sent on with `count` rays.
+void LightWalk::step(std::size_t count, std::uint32_t seed) {
+    sortAlongSurfaces(lit_, bounds_);
+    lit_.resize((lit_.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
+    lighting_.emit(lit_);
+    const std::size_t first = rays_.size();
+    bounceEnds_.push_back(first + count);
+    rays_.resize(first + count);
+    hits_.resize(count);
+    const auto drawn = std::span(rays_).subspan(first);
+    lighting_.draw(clvHashCombine(seed, uint(first)), drawn, hits_);
+    lit_.clear();
+    addLit(drawn, hits_, 1.0f / float(count), lit_);
+    power_.push_back(fluxOf(lit_));
+}
+
+// Light of channels that do not lose any is given up after some bounces.
+void LightWalk::heedLimit() {
+    if (int(bounceEnds_.size()) + 1 != kLastWithoutLimit) return;
+    const glm::dvec3 pace = paceOf(power_);
+    pace_ = glm::max(pace_, pace);
+    for (int c = 0; c < 3; ++c) {
+        if (pace[c] < kLargestRatio) continue;
+        limitless_ = true;
+        for (ClvRsmTexel& texel : lit_) texel.flux[c] = 0.0f;
+    }
+    power_.back() = fluxOf(lit_);
+}
+
+std::span<const ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed) {
+    lit_.assign(lit.begin(), lit.end());
+    rays_.clear(), bounceEnds_.clear();
+    power_ = {fluxOf(lit_)};
+    const double reserve = std::max(kFewestRays, double(count) / kReserved);  // rays of each of the last two steps
+    const double budget = double(count) - 2.0 * reserve;
+    const double expected = first_ > 0.0 ? total(power_[0]) * all_ / first_ : 0.0;  // W of all bounces
+    double sum = 0.0;
+    bool little = false;
+    while (total(power_.back()) > 0.0) {
+        const double now = total(power_.back()), left = budget - double(rays_.size());
+        const glm::dvec3 pace = power_.size() > 1 ? paceOf(power_) : glm::dvec3(0.5);
+        const double later = std::clamp(total(power_.back() * pace) / now, kLeastLater, kMostLater);
+        little = power_.size() > 2 && now < kNegligible * (1.0 - std::min(later, kLargestRatio)) * sum;
+        const double wanted = std::max(expected > 0.0 ? std::min(budget * now / expected, left * (1.0 - later)) : left * (1.0 - later), kFewestRays);
+        if (wanted > left || little) break;
+        sum += now;
+        step(std::size_t(wanted), seed);
+        heedLimit();
+    }
+    // What is left falls in a geometric series, from many places: few would be bright spots.
+    if (total(power_.back()) > 0.0) {
+        sum += total(power_.back());
+        step(std::size_t(little ? kFewestRays : reserve), seed);
+        const glm::dvec3 pace = glm::min(paceOf(power_), kLargestRatio);
+        for (ClvRsmTexel& texel : lit_) texel.flux /= vec3(1.0 - pace);
+        if (const double rest = total(fluxOf(lit_)); rest > 0.0) {
+            sum += rest;
+            step(std::size_t(little ? kFewestRays : std::max(double(count) - double(rays_.size()), kFewestRays)), seed);
+            power_.pop_back();
+        }
+    }
+    // The mean of all rays is the sum of the bounces.
+    for (std::size_t k = 0, first = 0; k < bounceEnds_.size(); first = bounceEnds_[k++]) {
+        const float scale = float(double(rays_.size()) / double(bounceEnds_[k] - first));
+        for (ClvRay& ray : std::span(rays_).subspan(first, bounceEnds_[k] - first)) ray.flux *= scale;
+    }
+    first_ += double(count) * total(power_[0]), all_ += double(count) * sum;
+    bounces_ = std::max(bounces_, int(bounceEnds_.size()) + 1);
+    pace_ = glm::max(pace_, paceOf(power_));
+    return rays_;
 }
 
 }  // namespace clv

@@ -30,24 +30,19 @@ public:
     virtual void reset() = 0;
 };
 
-// Power of the rays of a shot, and what of it the surfaces that they hit send on; W a channel.
-struct SentPower {
-    glm::dvec3 flux{0.0}, on{0.0};
-};
-
-// Rays from one source. All back ends draw the same ones for the same seed.
+// Rays from one source: the maps of the lights, or surfaces that send light. All back ends draw the same ones for the same seed.
 class Lighting {
 public:
     virtual ~Lighting() = default;
 
     // The maps of the scene's lights, at one of their well-spread samples: where the rays of the next shots come from.
     virtual void renderMaps(std::uint32_t pass) = 0;
-    // Surfaces that send light, in place of maps; as many as the settings say at most.
+    // Surfaces that send light, in place of maps: rows of kEmitterWidth, as many as the settings say at most.
     virtual void emit(std::span<const ClvRsmTexel> emitters) = 0;
 
     // Fills `rays` with the first ones of a sequence of their own, cut where they hit; and `hits`, as many or none, for settings that
-    // keep hits.
-    virtual void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits = {}) = 0;
+    // keep hits. Each carries the whole flux.
+    virtual void draw(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits = {}) = 0;
     // Later rays go where this guide sends them, once maps are rendered. Call it before any level is made.
     virtual void guideBy(const RayGuide& guide) = 0;
 
@@ -58,8 +53,11 @@ public:
     virtual std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) = 0;
     // The rays of the last shot for one more level, which has joined since.
     virtual void shootAgain(LightLevel& level) = 0;
-    // Of the last shot; for settings that keep hits.
-    virtual SentPower sent() const = 0;
+    // What the surfaces that the last shot met send on, a texel each, for settings that keep hits; once a shot.
+    virtual std::vector<ClvRsmTexel> takeLit() = 0;
+
+    // For settings with emitters, in place of shots: adds the light of rays that are cut, which is their mean.
+    virtual void add(std::span<const ClvRay> rays, LightLevel& level) = 0;
 };
 
 struct LightingSettings {
@@ -69,7 +67,7 @@ struct LightingSettings {
     std::size_t firstShot = 0;    // rays; their memory is taken ahead
     std::uint32_t seed = 1;
     std::size_t emitters = 0;     // surfaces that may send light, rows of kEmitterWidth; 0: the scene's lights do
-    bool keepHits = false;        // so that sent() knows what the rays met
+    bool keepHits = false;        // so that takeLit() knows what the rays met
     ClvVolume finest{};           // of the levels that may be made
 };
 

@@ -12,7 +12,7 @@ namespace clv {
 
 // Receivers stand still: their weights are found once a level.
 struct Lookups {
-    LookupTable points, judges, surfaces;
+    LookupTable points, judges;
 };
 
 struct LitLevel {

@@ -54,10 +54,13 @@ PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std:
         LightJob job(scene, chosen, seed, parallelFor, points);
         if (job.worksAtAll()) {
             FirstBounce first(job);
-            first.run();
-            const auto take = [&](std::span<const LitLevel> levels, float scale) { job.evaluate(levels, scale, out); };
-            take(first.levels(), 1.0f);
-            if (job.needs.feedback && !first.levels().empty()) addFurtherBounces(job, first.levels(), first.sent(), take);
+            std::optional<FurtherBounces> further;
+            if (job.needs.feedback) further.emplace(job);
+            first.run([&](std::uint32_t, const std::vector<ClvRsmTexel>& lit, std::size_t rays) {
+                if (further) further->follow(lit, rays, first.levels());
+            });
+            job.evaluate(first.levels(), 1.0f, out);
+            if (further) job.evaluate(further->finish(first.levels()), 1.0f, out);
         }
         return job.takeReport();
     });
@@ -75,7 +78,6 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["levels"] = levels;
     report["rays"] = run.rays;
     report["sweeps"] = run.sweeps;
-    report["walked_bounces"] = run.walked;
     report["channels"] = run.channels;
     report["share_of_rays_that_meet"] = run.shareThatMeets;
     report["guided"] = run.guided;

@@ -21,8 +21,7 @@ struct PipelineReport {
     std::vector<std::pair<std::string, double>> stages;
     double frameSeconds = 0.0;             // rays to evaluate, all frames together
     std::uint64_t rays = 0;                // segments traced after the first bounce, pilots included
-    std::uint32_t sweeps = 0;              // times that a volume was filled: a bounce each, the last one perhaps all that are left
-    int walked = 0;                        // bounces of these that the light was followed through
+    std::uint32_t sweeps = 0;              // bounces that rays followed, the last one perhaps for all that are left
     double contraction = 0.0;              // power from bounce to bounce, of the channel that loses least
     std::vector<std::pair<int, double>> levels;  // resolution and weight of each level that is shown
     std::size_t bytes = 0;                 // of volumes and their tables

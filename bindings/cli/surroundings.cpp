@@ -8,7 +8,6 @@ namespace clv {
 namespace {
 
 constexpr std::size_t kMostLooks = 1024;  // points that look around
-constexpr std::size_t kSkipped = 4;       // of what a point sees every fourth place looks on
 
 // Element of rank share * size; kClvFar of none.
 float quantile(std::vector<float>& values, double share) {
@@ -43,25 +42,6 @@ float nearSight(std::span<const Look> looks) {
     std::vector<float> middles;
     for (const Look& look : looks) middles.push_back(look.middle);
     return quantile(middles, 0.1);
-}
-
-std::vector<SurfaceView> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor) {
-    std::vector<std::vector<SurfaceView>> seen(looks.size());
-    parallelFor(looks.size(), [&](std::size_t k) {
-        std::vector<ClvReceiver> places;
-        const auto look = [&](const ClvReceiver& from, std::uint32_t seed) {
-            seenFaces(scene, from, seed, [&](const vec3& position, const ClvHit& hit) {
-                seen[k].push_back({hit.primitive, position});
-                places.push_back({position, 0.0f, hit.normal, 0.0f});
-            });
-        };
-        look(looks[k].point, looks[k].seed);
-        // On to what is seen from there: no point sees the surface that it lies on.
-        for (std::size_t p = 0, count = places.size(); p < count; p += kSkipped) look(ClvReceiver(places[p]), clvHashCombine(looks[k].seed, uint(p)));
-    });
-    std::vector<SurfaceView> views;
-    for (const auto& some : seen) views.insert(views.end(), some.begin(), some.end());
-    return views;
 }
 
 }  // namespace clv

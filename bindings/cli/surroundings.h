@@ -6,7 +6,6 @@
 
 #include "bindings/embree/path_tracer.h"
 #include "bindings/embree/seen_faces.h"
-#include "bindings/embree/surface_patches.h"
 #include "clv/cpu/parallel.h"
 #include "clv/stages/evaluate.h"
 
@@ -27,8 +26,5 @@ std::vector<Look> lookAround(const EmbreeScene& scene, std::span<const ClvReceiv
 
 // m. A tenth of the points see half of what they see from nearer than this; kClvFar where they see nothing.
 float nearSight(std::span<const Look> looks);
-
-// Where looks fall: of the points, and of places that they see.
-std::vector<SurfaceView> viewsOf(const EmbreeScene& scene, std::span<const Look> looks, const ParallelFor& parallelFor);
 
 }  // namespace clv

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "bindings/cli/light_walk.h"
 #include "bindings/cli/scene_facts.h"
 #include "bindings/embree/light_maps.h"
 #include "bindings/vulkan/vulkan_level.h"
@@ -34,9 +36,10 @@ struct Shot {
 
 class VulkanLevel : public LightLevel {
 public:
-    VulkanLevel(Level level, LightFrameSettings settings, VulkanDevice& device, const VulkanFrame& rays)
-        : level_(std::move(level)), bricks_(brickSlots(level_)), settings_(withLevel(std::move(settings), describeLevel(level_, bricks_))),
-          frame_(lightFrame(settings_)), run_(device, frame_, ShaderLanguage::glsl, &rays) {
+    // rays: the frame that shares its rays; null where the host gives them.
+    VulkanLevel(Level level, LightFrameSettings settings, VulkanDevice& device, const VulkanFrame* rays)
+        : level_(std::move(level)), bricks_(brickSlots(level_)), settings_(withLevel(std::move(settings), describeLevel(level_, bricks_), rays != nullptr)),
+          frame_(lightFrame(settings_)), run_(device, frame_, ShaderLanguage::glsl, rays) {
         uploadLevel(run_, settings_, 0, level_, bricks_);
     }
 
@@ -57,7 +60,8 @@ public:
         return halves;
     }
 
-    // Adds the rays that lie in the buffer that it shares. largestFlux: W, of any channel of any ray.
+    void upload(std::span<const ClvRay> rays) { run_.upload("rays", rays); }
+    // Adds the rays that lie in the buffer. largestFlux: W, of any channel of any ray.
     void add(const ClvFrame& constants, float largestFlux, StageClock& clock) {
         rays_ += constants.rayCount;
         LightFrameSettings settings = settings_;
@@ -69,9 +73,9 @@ public:
     }
 
 private:
-    static LightFrameSettings withLevel(LightFrameSettings settings, const LightFrameLevel& level) {
+    static LightFrameSettings withLevel(LightFrameSettings settings, const LightFrameLevel& level, bool sharedRays) {
         settings.lights = settings.emitters = settings.guideRows = 0;
-        settings.keepHits = false, settings.sharedRays = true;
+        settings.keepHits = false, settings.sharedRays = sharedRays;
         settings.levels = {level};
         return settings;
     }
@@ -135,17 +139,15 @@ public:
     }
     void emit(std::span<const ClvRsmTexel> emitters) override {
         if (emitters.size() > frame_.emitters) throw std::logic_error("more emitters than the lighting has room for");
-        emitters_.assign(emitters.begin(), emitters.end());
-        emitters_.resize(frame_.emitters, ClvRsmTexel{});
+        constants_.texelRows = uint(emitters.size() / frame_.rsmSide);
         parts_.clock.time("rsm", [&] {
             run_->upload("frame", constants_);
-            run_->upload("texels", std::span<const ClvRsmTexel>(emitters_));
+            run_->upload("texels", emitters);
             run_->run("rsm");
         });
-        if (settings_.emitters > 0) largestFlux_ = largestRayFlux(emitters);
     }
 
-    void pilots(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
+    void draw(std::uint32_t seed, std::span<ClvRay> rays, std::span<ClvHit> hits) override {
         ClvFrame constants = constants_;
         constants.halves = 1, constants.seed = seed;
         for (std::size_t done = 0; done < rays.size(); done += frame_.rays) {
@@ -167,26 +169,37 @@ public:
     }
 
     std::unique_ptr<LightLevel> makeLevel(Level level) override {
-        return std::make_unique<VulkanLevel>(std::move(level), frame_, parts_.device, *run_);
+        return std::make_unique<VulkanLevel>(std::move(level), frame_, parts_.device, settings_.emitters > 0 ? nullptr : &*run_);
     }
 
     std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) override {
         shot_ = {nextIndex_, raysPerHalf(count)};
-        sent_ = {};
+        lit_.clear();
         forPieces([&](const ClvFrame& constants) {
             for (LightLevel* level : levels) addTo(*level, constants);
-            if (settings_.keepHits) noteSent(constants.rayCount);
+            if (settings_.keepHits) noteLit(constants.rayCount);
         });
         const std::uint64_t rays = shot_.perHalf * frame_.halves;
         nextIndex_ += uint(rays);
-        sent_.flux /= double(rays), sent_.on /= double(rays);
         return rays;
     }
     // Rays follow from their number: they are drawn and traced again.
     void shootAgain(LightLevel& level) override {
         forPieces([&](const ClvFrame& constants) { addTo(level, constants); });
     }
-    SentPower sent() const override { return sent_; }
+    std::vector<ClvRsmTexel> takeLit() override { return std::exchange(lit_, {}); }
+
+    void add(std::span<const ClvRay> rays, LightLevel& level) override {
+        VulkanLevel& target = static_cast<VulkanLevel&>(level);
+        ClvFrame constants = constants_;
+        constants.halves = 1;
+        for (std::size_t done = 0; done < rays.size(); done += frame_.rays) {
+            const auto piece = rays.subspan(done, std::min<std::size_t>(frame_.rays, rays.size() - done));
+            constants.rayCount = constants.halfStep = uint(piece.size());
+            target.upload(piece);
+            target.add(constants, largestRayFlux(piece), parts_.clock);
+        }
+    }
 
 private:
     // Of a shot of `count` rays, rounded up as on the CPU.
@@ -235,15 +248,12 @@ private:
         static_cast<VulkanLevel&>(level).add(constants, flux, parts_.clock);
     }
 
-    void noteSent(std::size_t count) {
+    void noteLit(std::size_t count) {
         rays_.resize(count);
         hits_.resize(count);
         run_->download("rays", std::span(rays_));
         run_->download("hits", std::span(hits_));
-        for (std::size_t k = 0; k < count; ++k) {
-            sent_.flux += glm::dvec3(rays_[k].flux);
-            if (hits_[k].primitive != kClvNoPrimitive) sent_.on += glm::dvec3(rays_[k].flux * hits_[k].albedo);
-        }
+        addLit(rays_, hits_, 1.0f / float(shot_.perHalf * frame_.halves), lit_);
     }
 
     const LightingSettings settings_;
@@ -257,8 +267,7 @@ private:
     std::optional<VulkanFrame> run_;
     uint nextIndex_ = 0;
     Shot shot_;
-    SentPower sent_;
-    std::vector<ClvRsmTexel> emitters_;
+    std::vector<ClvRsmTexel> lit_;  // by the last shot
     std::vector<ClvRay> rays_;
     std::vector<ClvHit> hits_;
 };

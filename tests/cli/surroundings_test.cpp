@@ -26,41 +26,6 @@ std::vector<ClvReceiver> onFloorOfTheFirst(const Scene& scene, int count) {
     return points;
 }
 
-TEST(Surroundings, viewsFallOnAllWallsOfTheRoomAndOnNothingElse) {
-    const Scene scene = twoRooms();
-    const EmbreeScene embree(scene);
-    const std::vector<Look> looks = lookAround(embree, onFloorOfTheFirst(scene, 200), tbbParallelFor(2));
-    ASSERT_EQ(looks.size(), 200u);
-    const std::vector<SurfaceView> views = viewsOf(embree, looks, tbbParallelFor(2));
-    // 16 from each point, and 16 from every fourth place of them.
-    EXPECT_EQ(views.size(), 200u * (16u + 4u * 16u));
-    std::vector<int> counts(scene.triangles.size(), 0);
-    for (const SurfaceView& view : views) {
-        ++counts[view.triangle];
-        const glm::uvec3& c = scene.triangles[view.triangle];
-        const vec3 normal = glm::normalize(glm::cross(scene.positions[c.y] - scene.positions[c.x], scene.positions[c.z] - scene.positions[c.x]));
-        EXPECT_NEAR(glm::dot(view.position - scene.positions[c.x], normal), 0.0f, 1e-5f);
-    }
-    int seen = 0;
-    for (std::size_t t = 0; t < counts.size(); ++t) {
-        const bool isFirst = scene.positions[scene.triangles[t].x].x + float(scene.anchor.x) < 4.0f;
-        EXPECT_EQ(counts[t] > 0, isFirst) << t;
-        seen += counts[t] > 0;
-    }
-    EXPECT_EQ(seen, 12) << "the floor too: from the walls";
-}
-
-TEST(Surroundings, areTheSameWhateverTheThreads) {
-    const Scene scene = twoRooms();
-    const EmbreeScene embree(scene);
-    const auto seenBy = [&](int threads) {
-        return viewsOf(embree, lookAround(embree, onFloorOfTheFirst(scene, 50), tbbParallelFor(threads)), tbbParallelFor(threads));
-    };
-    const auto one = seenBy(1), two = seenBy(2);
-    ASSERT_EQ(one.size(), two.size());
-    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_TRUE(one[i].triangle == two[i].triangle && one[i].position == two[i].position);
-}
-
 TEST(Surroundings, nearSightIsWhatATenthOfThePointsSeeHalfOf) {
     const Scene scene = twoRooms();
     const EmbreeScene embree(scene);

@@ -40,13 +40,16 @@ public:
         for (Volume& volume : volumes_) inject(volume);
     }
     // Into one level only: a level that joins late in a frame still gets all of the frame's rays. Where memory runs out on the way, it gets none.
-    void inject(Volume& volume) {
-        const int chunks = settings_.parts.chunks;
+    void inject(Volume& volume) { inject(volume, rays_.all()); }
+    // The same of rays of the caller's own, which are cut: as many for each half.
+    void inject(Volume& volume, std::span<const ClvRay> rays) {
+        const std::size_t chunks = std::size_t(settings_.parts.chunks), parts = chunks * std::size_t(settings_.parts.halves);
         auto injectPart = [&](std::size_t part) {
-            clv::inject(volume.level(), settings_.layout, settings_.rule, rays_.part(part), volume.partial(int(part) / chunks, int(part) % chunks));
+            const std::size_t first = rays.size() * part / parts, last = rays.size() * (part + 1) / parts;
+            clv::inject(volume.level(), settings_.layout, settings_.rule, rays.subspan(first, last - first), volume.partial(int(part / chunks), int(part % chunks)));
         };
         try {
-            parallelFor_(std::size_t(settings_.parts.halves) * chunks, std::ref(injectPart));
+            parallelFor_(parts, std::ref(injectPart));
         } catch (...) {
             volume.dropFrame();
             throw;

@@ -18,6 +18,13 @@ inline float largestRayFlux(std::span<const ClvRsmTexel> texels) {
     return float(sum);
 }
 
+// The same of rays that are known.
+inline float largestRayFlux(std::span<const ClvRay> rays) {
+    float largest = 0.0f;
+    for (const ClvRay& ray : rays) largest = std::max({largest, ray.flux.x, ray.flux.y, ray.flux.z});
+    return largest;
+}
+
 // The same before the lights' maps are known: surfaces send on no more than they receive. [lo, hi]: the scene's bounds, m.
 inline float largestRayFlux(std::span<const ClvLight> lights, const vec3& lo, const vec3& hi) {
     double sum = 0.0;
