@@ -59,8 +59,8 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
         };
         std::optional<FurtherBounces> further;
         if (job.needs.feedback) further.emplace(job);
-        first.run([&](std::uint32_t frame, const std::vector<ClvRsmTexel>& lit, std::size_t rays) {
-            if (further) further->follow(lit, rays, first.levels());
+        first.run([&](std::uint32_t frame, std::size_t rays) {
+            if (further) further->follow(first, rays);
             if (options.frames <= 1) return;
             keep(frame);
             onFrame(volume);
@@ -68,7 +68,7 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
         if (first.levels().empty()) throw InputError(scene.name + ": its lights meet no surface; expected light to bake");
         if (options.frames > 1) return job.takeReport();
         keep(0);
-        if (further) addDeposits(further->finish(first.levels()), volume.cascades);
+        if (further) addDeposits(further->finish(first), volume.cascades);
         onFrame(volume);
         return job.takeReport();
     });

@@ -64,16 +64,16 @@ public:
         clock_.time("inject", [&] { lighting_.inject(volume); });
         clock_.time("merge", [&] { lighting_.merge(volume); });
     }
-    std::vector<ClvRsmTexel> takeLit() override {
-        const auto rays = lighting_.currentRays();
+    std::vector<ClvRsmTexel> takeLit(int half) override {
+        const std::size_t perHalf = lighting_.currentRays().size() / std::size_t(parts_.halves), first = std::size_t(half) * perHalf;
         std::vector<ClvRsmTexel> lit;
-        addLit(rays, hits_, 1.0f / float(rays.size()), lit);
+        addLit(lighting_.currentRays().subspan(first, perHalf), std::span(hits_).subspan(first, perHalf), 1.0f / float(perHalf), lit);
         return lit;
     }
     void add(std::span<const ClvRay> rays, LightLevel& level) override {
         Volume& volume = static_cast<CpuLevel&>(level).volume;
         clock_.time("inject", [&] { lighting_.inject(volume, rays); });
-        clock_.time("merge", [&] { volume.merge(double(rays.size()), 1.0f / float(rays.size()), parallelFor_); });
+        clock_.time("merge", [&] { volume.merge(double(rays.size()), float(parts_.halves) / float(rays.size()), parallelFor_); });
     }
 
 private:

@@ -15,19 +15,9 @@ constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
 
 }  // namespace
 
-void FirstBounce::addLevel(int resolution) {
-    for (LitLevel& level : levels_) level.weight = 0.0;
-    addLevel(resolution, job_.makeLevel(resolution));
-}
-
-void FirstBounce::addLevel(int resolution, Level level) {
-    auto lookups = job_.makeLookups(level);
-    levels_.push_back(job_.makeLit(*lighting_, resolution, std::move(level), std::move(lookups)));
-}
-
 std::size_t FirstBounce::shoot(std::size_t count) {
     std::vector<LightLevel*> levels;
-    for (const LitLevel& level : levels_) levels.push_back(level.light.get());
+    for (const LitLevel& level : levels_.levels()) levels.push_back(level.light.get());
     const std::size_t rays = lighting_->shoot(count, levels);
     job_.report.rays += rays, shot_ += rays;
     return rays;
@@ -59,11 +49,7 @@ void FirstBounce::run(const AfterRound& afterRound) {
     Progress progress("light");
     if (!pilot(options.seconds > 0.0 ? kFirstRound : budget)) return;
     if (options.seconds <= 0.0) budget -= pilots_;
-    for (const ClvVolume& grid : job_.grids) addLevel(options.resolution, job_.makeLevel(grid));
-    if (job_.grids.empty() && !job_.automatic) addLevel(options.resolution);
-    if (job_.automatic) {
-        for (const int resolution : resolutionsFor(double(budget) + double(pilots_)).first(2)) addLevel(resolution);
-    }
+    levels_.begin(*lighting_, double(budget) + double(pilots_));
 
     // While levels are judged all of them are filled, so this ends with about the first quarter of the rays. A power of two: the
     // halves of other stretches of the sequence fill each other's gaps, and what is meant to judge the bias shows less of it.
@@ -83,36 +69,17 @@ void FirstBounce::run(const AfterRound& afterRound) {
         const double now = progress.seconds();
         // With a budget of time, as many rays are still to come as the pace so far promises.
         const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * options.seconds / std::max(now, 1e-6)) : double(budget);
-        if (job_.automatic) choice_.judge(*this, double(shot_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
-        if (afterRound) afterRound(pass, job_.needs.feedback ? lighting_->takeLit() : std::vector<ClvRsmTexel>(), count);
+        levels_.judge(double(shot_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
+        if (afterRound) afterRound(pass, count);
         if (options.seconds > 0.0 && now + (now - before) > options.seconds) break;
         progress.update(options.seconds > 0.0 ? now / options.seconds : double(done) / double(budget));
-        if (options.frames <= 1) round = choice_.settled() || !job_.automatic ? kLargestShot : std::min(2 * round, kLargestShot);
+        if (options.frames <= 1) round = levels_.settled() ? kLargestShot : std::min(2 * round, kLargestShot);
     }
-    for (const LitLevel& level : levels_) {
-        job_.report.bytes += level.light->bytes(), job_.report.slots += level.light->level().slots.size();
+    job_.report.bytes += levels_.bytes();
+    for (const LitLevel& level : levels_.levels()) {
+        job_.report.slots += level.light->level().slots.size();
         if (level.weight > 0.0) job_.report.levels.emplace_back(level.resolution, level.weight);
     }
-}
-
-bool FirstBounce::addFiner() {
-    const auto next = std::upper_bound(std::begin(kResolutions), std::end(kResolutions), levels_.back().resolution);
-    if (next == std::end(kResolutions)) return false;
-    addLevel(*next);
-    lighting_->shootAgain(*levels_.back().light);
-    return true;
-}
-
-void FirstBounce::estimate(int which, HalfEstimates& estimates) const {
-    const LitLevel& level = levels_[std::size_t(which)];
-    job_.clock.time("choose", [&] {
-        const auto halves = level.light->histories();
-        for (auto& half : estimates.half) half.resize(job_.judges.size());
-        forReceivers(job_.judges.size(), job_.parallelFor, [&](std::size_t i) {
-            const ClvCoefficients read = job_.layout.read(job_.judges[i].normal);
-            for (std::size_t half = 0; half < 2; ++half) estimates.half[half][i] = level.lookups->judges.irradiance(i, job_.layout, halves[half], read);
-        });
-    });
 }
 
 }  // namespace clv

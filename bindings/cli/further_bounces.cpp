@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "clv/stages/rays.h"
+
 namespace clv {
 namespace {
 
@@ -11,66 +13,83 @@ constexpr std::size_t kTrialShare = 8, kMostTrial = 8 << 10;  // of the first ra
 
 std::unique_ptr<Lighting> makeLighting(LightJob& job) {
     const std::uint64_t rays = job.options.seconds > 0.0 ? 2 * kLargestShot : std::min<std::uint64_t>(job.options.rays / 2, 2 * kLargestShot);
-    LightingSettings settings = job.lightingSettings(1, rays, 0x100u);
+    LightingSettings settings = job.lightingSettings(job.halves, rays, 0x100u);
     settings.emitters = (rays / kEmitterWidth + 64) * kEmitterWidth;  // shots are rounded up
     return job.makeLighting(settings);
 }
 
 }  // namespace
 
-FurtherBounces::FurtherBounces(LightJob& job) : job_(job), lighting_(makeLighting(job)), walk_(*lighting_, job.scene.bounds) {}
+FurtherBounces::FurtherBounces(LightJob& job)
+    : job_(job), lighting_(makeLighting(job)), levels_(job, [this](LightLevel& level) { lighting_->add(last_, level); }) {
+    for (int half = 0; half < job.halves; ++half) halves_.push_back({LightWalk(*lighting_, job.scene.bounds), {}, {}});
+}
 
 // Walks of few rays lose dim places soon, so that small shots are followed together, unless time is short.
-void FurtherBounces::follow(std::span<const ClvRsmTexel> lit, std::size_t rays, std::span<const LitLevel> first) {
-    for (ClvRsmTexel texel : lit) {
-        texel.flux *= float(rays);
-        lit_.push_back(texel);
+void FurtherBounces::follow(FirstBounce& first, std::size_t rays) {
+    const std::size_t perHalf = rays / halves_.size();
+    for (std::size_t half = 0; half < halves_.size(); ++half) {
+        for (ClvRsmTexel texel : first.takeLit(int(half))) {
+            texel.flux *= float(perHalf);
+            halves_[half].lit.push_back(texel);
+        }
     }
-    shot_ += rays, left_ += double(rays);
-    if (shot_ >= kLargestShot || job_.options.seconds > 0.0) walk(first);
+    shot_ += perHalf, left_ += double(perHalf);
+    if (shot_ * halves_.size() >= kLargestShot || job_.options.seconds > 0.0) walk(first.levels());
 }
 
 void FurtherBounces::walk(std::span<const LitLevel> first) {
-    takeLevels(first);
-    for (ClvRsmTexel& texel : lit_) texel.flux /= float(shot_);
+    if (walks_ == 0) levels_.begin(*lighting_, target(), first);
+    for (Half& half : halves_) {
+        for (ClvRsmTexel& texel : half.lit) texel.flux /= float(shot_);
+    }
     if (walks_ == 0) walk(std::min(std::size_t(left_) / kTrialShare, kMostTrial));
     walk(std::size_t(std::max(left_, 0.0)));
-    lit_.clear();
+    for (Half& half : halves_) half.lit.clear();
     shot_ = 0;
+    if (done_ > 0) levels_.judge(double(done_), std::max(target(), double(done_)), double(done_) >= target() / 3.0, first);
 }
 
-void FurtherBounces::walk(std::size_t count) {
-    std::span<const ClvRay> rays;
-    job_.clock.time("walk", [&] { rays = walk_.follow(lit_, count, clvHashCombine(job_.seed, 0x103u + walks_++)); });
-    if (rays.empty()) return;
-    for (const LitLevel& level : levels_) lighting_->add(rays, *level.light);
-    job_.report.rays += rays.size();
-    left_ -= double(rays.size());
+// Rays of all walks, as far as is known.
+double FurtherBounces::target() const { return job_.options.seconds > 0.0 ? 2.0 * kLargestShot : double(job_.options.rays / 2); }
+
+void FurtherBounces::walk(std::size_t raysOfHalf) {
+    job_.clock.time("walk", [&] {
+        std::size_t most = 0;
+        last_.clear();
+        for (Half& half : halves_) {
+            half.rays = half.walk.follow(half.lit, raysOfHalf, clvHashCombine(job_.seed, 0x103u + walks_++));
+            most = std::max(most, half.rays.size());
+        }
+        // As many of each half, their means unchanged.
+        for (Half& half : halves_) {
+            for (ClvRay& ray : half.rays) ray.flux *= float(most) / float(half.rays.size());
+            half.rays.resize(most, clvDeadRay());
+            last_.insert(last_.end(), half.rays.begin(), half.rays.end());
+            half.rays = {};
+        }
+        job_.report.rays += last_.size(), done_ += last_.size();
+        left_ -= double(most);
+    });
+    if (last_.empty()) return;
+    for (const LitLevel& level : levels_.levels()) lighting_->add(last_, *level.light);
 }
 
-void FurtherBounces::takeLevels(std::span<const LitLevel> first) {
-    std::vector<LitLevel> levels;
-    for (const LitLevel& one : first) {
-        const auto same = std::ranges::find(levels_, one.lookups, &LitLevel::lookups);
-        if (same != levels_.end()) levels.push_back(std::move(*same));
-        else levels.push_back(job_.makeLit(*lighting_, one.resolution, one.light->level(), one.lookups));
-        levels.back().weight = one.weight;
+std::span<const LitLevel> FurtherBounces::finish(const FirstBounce& first) {
+    if (shot_ > 0) walk(first.levels());
+    job_.report.bytes += levels_.bytes();
+    bool limitless = false;
+    for (const Half& half : halves_) {
+        job_.report.sweeps = std::max(job_.report.sweeps, std::uint32_t(half.walk.bounces()));
+        job_.report.contraction = std::max({job_.report.contraction, half.walk.pace().x, half.walk.pace().y, half.walk.pace().z});
+        limitless = limitless || half.walk.limitless();
     }
-    levels_ = std::move(levels);
-}
-
-std::span<const LitLevel> FurtherBounces::finish(std::span<const LitLevel> first) {
-    if (shot_ > 0) walk(first);
-    takeLevels(first);
-    for (const LitLevel& level : levels_) job_.report.bytes += level.light->bytes();
-    job_.report.sweeps = std::uint32_t(walk_.bounces());
-    job_.report.contraction = std::max({walk_.pace().x, walk_.pace().y, walk_.pace().z});
-    if (walk_.limitless())
+    if (limitless)
         job_.report.warnings.push_back(fmt::format(
             "bounce {} still carries {:.4f} of the power of the one before: surfaces reflect all light and nothing absorbs it, so "
             "there is no finite answer; what is given is the light of the first {} bounces",
             kLastWithoutLimit, job_.report.contraction, kLastWithoutLimit));
-    return levels_;
+    return levels_.levels();
 }
 
 }  // namespace clv

@@ -1,8 +1,8 @@
-// All bounces after the first, in levels like those of the first.
+// All bounces after the first, in levels of their own.
 #pragma once
 #include <vector>
 
-#include "bindings/cli/light_job.h"
+#include "bindings/cli/first_bounce.h"
 #include "bindings/cli/light_walk.h"
 
 namespace clv {
@@ -11,24 +11,31 @@ class FurtherBounces {
 public:
     explicit FurtherBounces(LightJob& job);
 
-    // lit: what surfaces send on that the last `rays` rays of the first bounce met, whose levels are in play. As many rays follow it.
-    void follow(std::span<const ClvRsmTexel> lit, std::size_t rays, std::span<const LitLevel> first);
-    // Levels of the same weights as those of the first bounce; without light where nothing was sent on. The job's report is told what it took.
-    std::span<const LitLevel> finish(std::span<const LitLevel> first);
+    // Follows what the last round of the first bounce met, with as many rays. Its halves stay apart.
+    void follow(FirstBounce& first, std::size_t rays);
+    // Its levels, mixed, give all bounces after the first; none where nothing was met. The job's report is told what it took.
+    std::span<const LitLevel> finish(const FirstBounce& first);
 
 private:
+    struct Half {
+        LightWalk walk;
+        std::vector<ClvRsmTexel> lit;  // to be followed; flux times the rays that met them
+        std::vector<ClvRay> rays;
+    };
+
     void walk(std::span<const LitLevel> first);
-    void walk(std::size_t rays);
-    void takeLevels(std::span<const LitLevel> first);
+    void walk(std::size_t raysOfHalf);
+    double target() const;
 
     LightJob& job_;
     std::unique_ptr<Lighting> lighting_;
-    std::vector<LitLevel> levels_;
-    LightWalk walk_;
+    LevelSet levels_;
+    std::vector<Half> halves_;
+    std::vector<ClvRay> last_;  // of the last walk, of all halves
     std::uint32_t walks_ = 0;
-    std::vector<ClvRsmTexel> lit_;  // to be followed; flux times the rays of its shot
-    std::size_t shot_ = 0;          // rays that met them
-    double left_ = 0.0;             // rays that may be taken
+    std::uint64_t done_ = 0;  // rays
+    std::size_t shot_ = 0;  // rays of each half that met what is to be followed
+    double left_ = 0.0;     // rays that each half may take
 };
 
 }  // namespace clv

@@ -31,8 +31,10 @@ struct LightJob {
     // stream: each lighting has one of its own, from which the seed of its rays follows.
     LightingSettings lightingSettings(int halves, std::uint64_t rays, std::uint32_t stream) const;
     std::unique_ptr<Lighting> makeLighting(const LightingSettings& settings);
-    // E at the points, W/m^2, times `scale` is added to `sum`.
-    void evaluate(std::span<const LitLevel> levels, float scale, std::span<glm::vec3> sum);
+    // E at the points, W/m^2, is added to `sum`.
+    void evaluate(std::span<const LitLevel> levels, std::span<glm::vec3> sum);
+    // Tells the report how noisy the sum of both is at the points, where the halves of the rays can say.
+    void judgeNoise(std::span<const LitLevel> first, std::span<const LitLevel> later);
     // What is said once all is done; the job's own report is left empty.
     PipelineReport takeReport();
 

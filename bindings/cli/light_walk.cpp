@@ -70,7 +70,7 @@ void LightWalk::heedLimit() {
     power_.back() = fluxOf(lit_);
 }
 
-std::span<const ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed) {
+std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed) {
     lit_.assign(lit.begin(), lit.end());
     rays_.clear(), bounceEnds_.clear();
     power_ = {fluxOf(lit_)};
@@ -110,7 +110,7 @@ std::span<const ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std:
     first_ += double(count) * total(power_[0]), all_ += double(count) * sum;
     bounces_ = std::max(bounces_, int(bounceEnds_.size()) + 1);
     pace_ = glm::max(pace_, paceOf(power_));
-    return rays_;
+    return std::move(rays_);
 }
 
 }  // namespace clv

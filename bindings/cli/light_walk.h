@@ -23,8 +23,8 @@ public:
     // The lighting has room for as many emitters as are followed at once, and keeps hits.
     LightWalk(Lighting& lighting, const Bounds& bounds) : lighting_(lighting), bounds_(bounds) {}
 
-    // Follows what surfaces send on, with about `count` rays. The result is valid until the next call.
-    std::span<const ClvRay> follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed);
+    // Follows what surfaces send on, with about `count` rays. Their mean is the light of all later bounces.
+    std::vector<ClvRay> follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed);
 
     // Of all calls: the most bounces, the first one included; and by how much the power of a channel falls from bounce to bounce, about.
     int bounces() const { return bounces_; }
@@ -37,9 +37,9 @@ private:
     void heedLimit();
 
     Lighting& lighting_;
-    const Bounds bounds_;
-    std::vector<ClvRay> rays_;
-    std::vector<ClvHit> hits_;
+    Bounds bounds_;
+    std::vector<ClvRay> rays_;             // so far
+    std::vector<ClvHit> hits_;             // of the last bounce
     std::vector<std::size_t> bounceEnds_;  // among the rays
     std::vector<ClvRsmTexel> lit_;         // by the last bounce
     std::vector<glm::dvec3> power_;        // W a channel that surfaces send on after each bounce

@@ -53,10 +53,11 @@ public:
     virtual std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) = 0;
     // The rays of the last shot for one more level, which has joined since.
     virtual void shootAgain(LightLevel& level) = 0;
-    // What the surfaces that the last shot met send on, a texel each, for settings that keep hits; once a shot.
-    virtual std::vector<ClvRsmTexel> takeLit() = 0;
+    // What the surfaces that a half of the last shot met send on, a texel each, for settings that keep hits; once a shot.
+    virtual std::vector<ClvRsmTexel> takeLit(int half) = 0;
 
-    // For settings with emitters, in place of shots: adds the light of rays that are cut, which is their mean.
+    // For settings with emitters, in place of shots: adds the light of rays that are cut, which is their mean; each half has as many, one
+    // half after the other.
     virtual void add(std::span<const ClvRay> rays, LightLevel& level) = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace clv {
 
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
-                   float scale, const ParallelFor& parallelFor, std::span<glm::vec3> sum) {
+                   const ParallelFor& parallelFor, std::span<glm::vec3> sum, std::optional<int> half) {
     struct Part {
         const LookupTable& table;
         std::span<const float> history;
@@ -18,12 +18,12 @@ void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which
     for (const LitLevel& level : levels) {
         if (level.weight == 0.0) continue;
         const auto halves = level.light->histories();
-        std::span<const float> history = halves[0];
-        if (halves.size() == 2) {
+        std::span<const float> history = halves[half ? std::size_t(*half) : 0];
+        if (halves.size() == 2 && !half) {
             averageHalves(halves[0], halves[1], parallelFor, means.emplace_back());
             history = means.back();
         }
-        parts.push_back({level.lookups.get()->*which, history, scale * float(level.weight)});
+        parts.push_back({level.lookups.get()->*which, history, float(level.weight)});
     }
     forReceivers(receivers.size(), parallelFor, [&](std::size_t i) {
         const ClvCoefficients read = layout.read(receivers[i].normal);

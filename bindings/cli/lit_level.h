@@ -1,6 +1,7 @@
 // Levels with light, and how receivers read a mix of them.
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,8 +32,8 @@ void forReceivers(std::size_t count, const ParallelFor& parallelFor, Body&& body
     });
 }
 
-// The mix of the levels: E at the receivers of that table, W/m^2, times `scale` is added to `sum`.
+// The mix of the levels: E at the receivers of that table, W/m^2, is added to `sum`. half: of the rays alone; else all of them.
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
-                   float scale, const ParallelFor& parallelFor, std::span<glm::vec3> sum);
+                   const ParallelFor& parallelFor, std::span<glm::vec3> sum, std::optional<int> half = {});
 
 }  // namespace clv

@@ -56,11 +56,13 @@ PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std:
             FirstBounce first(job);
             std::optional<FurtherBounces> further;
             if (job.needs.feedback) further.emplace(job);
-            first.run([&](std::uint32_t, const std::vector<ClvRsmTexel>& lit, std::size_t rays) {
-                if (further) further->follow(lit, rays, first.levels());
+            first.run([&](std::uint32_t, std::size_t rays) {
+                if (further) further->follow(first, rays);
             });
-            job.evaluate(first.levels(), 1.0f, out);
-            if (further) job.evaluate(further->finish(first.levels()), 1.0f, out);
+            const std::span<const LitLevel> later = further ? further->finish(first) : std::span<const LitLevel>();
+            job.evaluate(first.levels(), out);
+            job.evaluate(later, out);
+            job.judgeNoise(first.levels(), later);
         }
         return job.takeReport();
     });
@@ -78,6 +80,7 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["levels"] = levels;
     report["rays"] = run.rays;
     report["sweeps"] = run.sweeps;
+    if (run.noise) report["noise"] = *run.noise;
     report["channels"] = run.channels;
     report["share_of_rays_that_meet"] = run.shareThatMeets;
     report["guided"] = run.guided;

@@ -1,6 +1,7 @@
 #include "bindings/cli/vulkan_lighting.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -174,7 +175,7 @@ public:
 
     std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) override {
         shot_ = {nextIndex_, raysPerHalf(count)};
-        lit_.clear();
+        for (auto& lit : lit_) lit.clear();
         forPieces([&](const ClvFrame& constants) {
             for (LightLevel* level : levels) addTo(*level, constants);
             if (settings_.keepHits) noteLit(constants.rayCount);
@@ -187,17 +188,22 @@ public:
     void shootAgain(LightLevel& level) override {
         forPieces([&](const ClvFrame& constants) { addTo(level, constants); });
     }
-    std::vector<ClvRsmTexel> takeLit() override { return std::exchange(lit_, {}); }
+    std::vector<ClvRsmTexel> takeLit(int half) override { return std::exchange(lit_[half], {}); }
 
     void add(std::span<const ClvRay> rays, LightLevel& level) override {
         VulkanLevel& target = static_cast<VulkanLevel&>(level);
         ClvFrame constants = constants_;
-        constants.halves = 1;
-        for (std::size_t done = 0; done < rays.size(); done += frame_.rays) {
-            const auto piece = rays.subspan(done, std::min<std::size_t>(frame_.rays, rays.size() - done));
-            constants.rayCount = constants.halfStep = uint(piece.size());
-            target.upload(piece);
-            target.add(constants, largestRayFlux(piece), parts_.clock);
+        const std::size_t perHalf = rays.size() / frame_.halves, most = frame_.rays / frame_.halves;
+        for (std::size_t done = 0; done < perHalf; done += most) {
+            const std::size_t count = std::min(most, perHalf - done);
+            rays_.clear();
+            for (std::size_t half = 0; half < frame_.halves; ++half) {
+                const auto piece = rays.subspan(half * perHalf + done, count);
+                rays_.insert(rays_.end(), piece.begin(), piece.end());
+            }
+            constants.rayCount = uint(rays_.size());
+            target.upload(rays_);
+            target.add(constants, largestRayFlux(rays_), parts_.clock);
         }
     }
 
@@ -253,7 +259,10 @@ private:
         hits_.resize(count);
         run_->download("rays", std::span(rays_));
         run_->download("hits", std::span(hits_));
-        addLit(rays_, hits_, 1.0f / float(shot_.perHalf * frame_.halves), lit_);
+        const std::size_t perHalf = count / frame_.halves;
+        for (std::size_t half = 0; half < frame_.halves; ++half) {
+            addLit(std::span(rays_).subspan(half * perHalf, perHalf), std::span(hits_).subspan(half * perHalf, perHalf), 1.0f / float(shot_.perHalf), lit_[half]);
+        }
     }
 
     const LightingSettings settings_;
@@ -267,7 +276,7 @@ private:
     std::optional<VulkanFrame> run_;
     uint nextIndex_ = 0;
     Shot shot_;
-    std::vector<ClvRsmTexel> lit_;  // by the last shot
+    std::array<std::vector<ClvRsmTexel>, 2> lit_;  // by the halves of the last shot
     std::vector<ClvRay> rays_;
     std::vector<ClvHit> hits_;
 };

@@ -43,7 +43,7 @@ public:
     std::unique_ptr<LightLevel> makeLevel(Level) override { throw std::logic_error("not the walk's"); }
     std::size_t shoot(std::size_t, std::span<LightLevel* const>) override { throw std::logic_error("not the walk's"); }
     void shootAgain(LightLevel&) override { throw std::logic_error("not the walk's"); }
-    std::vector<ClvRsmTexel> takeLit() override { throw std::logic_error("not the walk's"); }
+    std::vector<ClvRsmTexel> takeLit(int) override { throw std::logic_error("not the walk's"); }
     void add(std::span<const ClvRay>, LightLevel&) override { throw std::logic_error("not the walk's"); }
 
     std::size_t mostEmitters = 0;
