@@ -39,7 +39,6 @@ struct BakeCommand {
         if (std::filesystem::path(out).extension() != ending)
             throw InputError(fmt::format("--out {}: expected a name that ends in {} for {}", out, ending, series ? "a series of frames" : "a volume"));
         if (light.allBounces && series) throw InputError("--frames: a series of all bounces is not available; expected one frame or one bounce");
-        if (light.allBounces && cascades.count > 1) throw InputError("--cascades: all bounces in more than one are not available; expected one cascade or one bounce");
     }
 
     // As many frames as the motion has, and cascades for its camera, unless the options say how many.

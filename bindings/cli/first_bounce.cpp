@@ -10,6 +10,7 @@ namespace clv {
 namespace {
 
 constexpr std::size_t kFirstRound = 64 << 10;      // rays
+constexpr std::size_t kMostOfAMap = 128 << 10;    // rays: more would leave from the same texels, which in wide scenes are as wide as rooms
 constexpr std::size_t kMostPilots = 64 << 10;      // rays that show where light goes
 constexpr std::uint64_t kPilotShare = 8;           // one ray in so many
 
@@ -73,7 +74,7 @@ void FirstBounce::run(const AfterRound& afterRound) {
         if (afterRound) afterRound(pass, count);
         if (options.seconds > 0.0 && now + (now - before) > options.seconds) break;
         progress.update(options.seconds > 0.0 ? now / options.seconds : double(done) / double(budget));
-        if (options.frames <= 1) round = levels_.settled() ? kLargestShot : std::min(2 * round, kLargestShot);
+        if (options.frames <= 1) round = std::min(2 * round, kMostOfAMap);
     }
     job_.report.bytes += levels_.bytes();
     for (const LitLevel& level : levels_.levels()) {

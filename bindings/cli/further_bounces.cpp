@@ -9,10 +9,11 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kTrialShare = 8, kMostTrial = 8 << 10;  // of the first rays: how much light later bounces have, about
+constexpr std::size_t kFollowed = 512 << 10;  // rays of the first bounce that are followed at once
+constexpr std::size_t kTrialShare = 8, kMostTrial = 8 << 10, kFewestToTry = 1 << 10;  // of the first rays: how much light later bounces have, about
 
 std::unique_ptr<Lighting> makeLighting(LightJob& job) {
-    const std::uint64_t rays = job.options.seconds > 0.0 ? 2 * kLargestShot : std::min<std::uint64_t>(job.options.rays / 2, 2 * kLargestShot);
+    const std::uint64_t rays = job.options.seconds > 0.0 ? 2 * kFollowed : std::min<std::uint64_t>(job.options.rays / 2, 2 * kFollowed);
     LightingSettings settings = job.lightingSettings(job.halves, rays, 0x100u);
     settings.emitters = (rays / kEmitterWidth + 64) * kEmitterWidth;  // shots are rounded up
     return job.makeLighting(settings);
@@ -35,7 +36,7 @@ void FurtherBounces::follow(FirstBounce& first, std::size_t rays) {
         }
     }
     shot_ += perHalf, left_ += double(perHalf);
-    if (shot_ * halves_.size() >= kLargestShot || job_.options.seconds > 0.0) walk(first.levels());
+    if (shot_ * halves_.size() >= kFollowed || job_.options.seconds > 0.0) walk(first.levels());
 }
 
 void FurtherBounces::walk(std::span<const LitLevel> first) {
@@ -43,7 +44,7 @@ void FurtherBounces::walk(std::span<const LitLevel> first) {
     for (Half& half : halves_) {
         for (ClvRsmTexel& texel : half.lit) texel.flux /= float(shot_);
     }
-    if (walks_ == 0) walk(std::min(std::size_t(left_) / kTrialShare, kMostTrial));
+    if (walks_ == 0 && left_ >= double(kFewestToTry)) walk(std::min(std::size_t(left_) / kTrialShare, kMostTrial));
     walk(std::size_t(std::max(left_, 0.0)));
     for (Half& half : halves_) half.lit.clear();
     shot_ = 0;
@@ -51,7 +52,7 @@ void FurtherBounces::walk(std::span<const LitLevel> first) {
 }
 
 // Rays of all walks, as far as is known.
-double FurtherBounces::target() const { return job_.options.seconds > 0.0 ? 2.0 * kLargestShot : double(job_.options.rays / 2); }
+double FurtherBounces::target() const { return job_.options.seconds > 0.0 ? 2.0 * kFollowed : double(job_.options.rays / 2); }
 
 void FurtherBounces::walk(std::size_t raysOfHalf) {
     job_.clock.time("walk", [&] {

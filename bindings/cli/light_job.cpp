@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
-constexpr double kMuchNoise = 0.3;                 // standard error over the mean, above which it is said
+constexpr double kMuchNoise = 0.3, kManyNoisy = 0.1, kManyDark = 0.1;  // above which they are said
 constexpr float kExact = 2.0f;                     // cells in sight, below which light is said to be inexact
 
 void moveTo(Scene& scene, const glm::dvec3& anchor) {
@@ -144,25 +144,23 @@ void LightJob::evaluate(std::span<const LitLevel> levels, std::span<glm::vec3> s
     clock.time("evaluate", [&] { addIrradiance(levels, &Lookups::points, layout, points, parallelFor, sum); });
 }
 
-// Over sqrt(mean square) of half of the difference between the halves, which is the standard error of their mean.
+// Half of the difference between the halves is a sample of the error of their mean.
 void LightJob::judgeNoise(std::span<const LitLevel> first, std::span<const LitLevel> later) {
-    if (halves != 2) return;
+    if (halves != 2 || points.empty()) return;
     clock.time("evaluate", [&] {
         std::vector<glm::vec3> half[2];
         for (int h = 0; h < 2; ++h) {
             half[h].resize(points.size(), glm::vec3(0.0f));
             for (const auto& levels : {first, later}) addIrradiance(levels, &Lookups::points, layout, points, parallelFor, half[h], h);
         }
-        double squares = 0.0, sum = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const glm::dvec3 a(half[0][i]), b(half[1][i]);
-            squares += 0.25 * glm::dot(a - b, a - b), sum += 0.5 * glm::dot(a + b, glm::dvec3(1.0));
-        }
-        const double count = 3.0 * double(points.size());
-        if (sum > 0.0) report.noise = std::sqrt(squares / count) / (sum / count);
+        report.noise = noiseOf(half[0], half[1]);
     });
-    if (report.noise && *report.noise > kMuchNoise)
-        report.warnings.push_back(fmt::format("the light at the points is noisy: its standard error is about {:.0f} % of its mean; more --rays or --seconds would be less so", 100.0 * *report.noise));
+    if (report.noise->dark > kManyDark)
+        report.warnings.push_back(fmt::format("{:.0f} % of the points got no light: they are dark, or too few rays came by", 100.0 * report.noise->dark));
+    if (report.noise->ofMean > kMuchNoise || report.noise->noisy > kManyNoisy)
+        report.warnings.push_back(fmt::format("the light at the points is noisy: its standard error is about {:.0f} % of its mean, and {:.0f} % of the points are off by more than {:.0f} % "
+                                              "of their own light; more --rays or --seconds would be less so",
+                                              100.0 * report.noise->ofMean, 100.0 * report.noise->noisy, 100.0 * kNoisy));
 }
 
 PipelineReport LightJob::takeReport() {

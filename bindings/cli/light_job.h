@@ -5,6 +5,7 @@
 
 #include "bindings/cli/light_options.h"
 #include "bindings/cli/lit_level.h"
+#include "bindings/cli/noise.h"
 #include "bindings/cli/pipeline.h"
 #include "bindings/cli/stage_clock.h"
 #include "bindings/cli/surroundings.h"

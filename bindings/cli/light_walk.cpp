@@ -11,7 +11,7 @@
 namespace clv {
 namespace {
 
-constexpr double kFewestRays = 32.0;               // of a bounce
+constexpr double kFewestRays = 32.0, kFewestShare = 16.0;  // of a bounce, and one in so many where there are no more
 constexpr double kReserved = 128.0;                // one ray in so many spreads what is left, and as many stand for it
 constexpr double kNegligible = 1e-5;               // share of all light at which the rest is extrapolated
 constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays left to later bounces by the first call, which does not know how much light they have
@@ -74,7 +74,8 @@ std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::siz
     lit_.assign(lit.begin(), lit.end());
     rays_.clear(), bounceEnds_.clear();
     power_ = {fluxOf(lit_)};
-    const double reserve = std::max(kFewestRays, double(count) / kReserved);  // rays of each of the last two steps
+    const double fewest = std::clamp(double(count) / kFewestShare, 1.0, kFewestRays);
+    const double reserve = std::max(fewest, double(count) / kReserved);  // rays of each of the last two steps
     const double budget = double(count) - 2.0 * reserve;
     const double expected = first_ > 0.0 ? total(power_[0]) * all_ / first_ : 0.0;  // W of all bounces
     double sum = 0.0;
@@ -84,7 +85,7 @@ std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::siz
         const glm::dvec3 pace = power_.size() > 1 ? paceOf(power_) : glm::dvec3(0.5);
         const double later = std::clamp(total(power_.back() * pace) / now, kLeastLater, kMostLater);
         little = power_.size() > 2 && now < kNegligible * (1.0 - std::min(later, kLargestRatio)) * sum;
-        const double wanted = std::max(expected > 0.0 ? std::min(budget * now / expected, left * (1.0 - later)) : left * (1.0 - later), kFewestRays);
+        const double wanted = std::max(expected > 0.0 ? std::min(budget * now / expected, left * (1.0 - later)) : left * (1.0 - later), fewest);
         if (wanted > left || little) break;
         sum += now;
         step(std::size_t(wanted), seed);
@@ -93,12 +94,12 @@ std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::siz
     // What is left falls in a geometric series, from many places: few would be bright spots.
     if (total(power_.back()) > 0.0) {
         sum += total(power_.back());
-        step(std::size_t(little ? kFewestRays : reserve), seed);
+        step(std::size_t(little ? fewest : reserve), seed);
         const glm::dvec3 pace = glm::min(paceOf(power_), kLargestRatio);
         for (ClvRsmTexel& texel : lit_) texel.flux /= vec3(1.0 - pace);
         if (const double rest = total(fluxOf(lit_)); rest > 0.0) {
             sum += rest;
-            step(std::size_t(little ? kFewestRays : std::max(double(count) - double(rays_.size()), kFewestRays)), seed);
+            step(std::size_t(little ? fewest : std::max(double(count) - double(rays_.size()), fewest)), seed);
             power_.pop_back();
         }
     }

@@ -13,8 +13,6 @@
 
 namespace clv {
 
-inline constexpr std::size_t kLargestShot = 512 << 10;  // rays that are shot at once
-
 // A level with its light, in the memory of the back end.
 class LightLevel {
 public:

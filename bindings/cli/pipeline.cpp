@@ -80,7 +80,7 @@ void reportLight(const PipelineReport& run, Report& report) {
     report["levels"] = levels;
     report["rays"] = run.rays;
     report["sweeps"] = run.sweeps;
-    if (run.noise) report["noise"] = *run.noise;
+    if (run.noise) report["noise"] = {{"of_mean", run.noise->ofMean}, {"noisy_points", run.noise->noisy}, {"dark_points", run.noise->dark}};
     report["channels"] = run.channels;
     report["share_of_rays_that_meet"] = run.shareThatMeets;
     report["guided"] = run.guided;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings/cli/light_options.h"
+#include "bindings/cli/noise.h"
 #include "bindings/cli/options.h"
 #include "bindings/embree/embree_scene.h"
 #include "bindings/embree/path_tracer.h"
@@ -23,7 +24,7 @@ struct PipelineReport {
     double frameSeconds = 0.0;             // rays to evaluate, all frames together
     std::uint64_t rays = 0;                // segments traced after the first bounce, pilots included
     std::uint32_t sweeps = 0;              // bounces that rays followed, the last one perhaps for all that are left
-    std::optional<double> noise;           // standard error at the points over their mean light; known where the resolution is chosen
+    std::optional<Noise> noise;            // at the points; known where the resolution is chosen
     double contraction = 0.0;              // power from bounce to bounce, of the channel that loses least
     std::vector<std::pair<int, double>> levels;  // resolution and weight of each level that is shown
     std::size_t bytes = 0;                 // of volumes and their tables

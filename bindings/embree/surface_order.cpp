@@ -1,7 +1,8 @@
 #include "bindings/embree/surface_order.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 
 namespace clv {
 namespace {
@@ -25,12 +26,28 @@ std::uint64_t placeOf(const vec3& position, const vec3& normal, const Bounds& bo
 
 }  // namespace
 
+// By radix, 11 bits at a time: the places have 33 bits.
 void sortAlongSurfaces(std::vector<ClvRsmTexel>& texels, const Bounds& bounds) {
-    std::vector<std::pair<std::uint64_t, std::size_t>> order(texels.size());
-    for (std::size_t k = 0; k < texels.size(); ++k) order[k] = {placeOf(texels[k].position, texels[k].normal, bounds), k};
-    std::sort(order.begin(), order.end());
+    constexpr int kBits = 11, kPasses = 3;
+    struct Entry {
+        std::uint64_t place;
+        std::size_t texel;
+    };
+    std::vector<Entry> order(texels.size()), next(texels.size());
+    std::array<std::array<std::size_t, std::size_t(1) << kBits>, kPasses> starts{};
+    const auto digit = [](std::uint64_t place, int pass) { return std::size_t(place >> (pass * kBits) & ((1u << kBits) - 1u)); };
+    for (std::size_t k = 0; k < texels.size(); ++k) {
+        order[k] = {placeOf(texels[k].position, texels[k].normal, bounds), k};
+        for (int pass = 0; pass < kPasses; ++pass) ++starts[std::size_t(pass)][digit(order[k].place, pass)];
+    }
+    for (int pass = 0; pass < kPasses; ++pass) {
+        auto& start = starts[std::size_t(pass)];
+        std::exclusive_scan(start.begin(), start.end(), start.begin(), std::size_t(0));
+        for (const Entry& entry : order) next[start[digit(entry.place, pass)]++] = entry;
+        std::swap(order, next);
+    }
     std::vector<ClvRsmTexel> sorted(texels.size());
-    for (std::size_t k = 0; k < texels.size(); ++k) sorted[k] = texels[order[k].second];
+    for (std::size_t k = 0; k < texels.size(); ++k) sorted[k] = texels[order[k].texel];
     texels = std::move(sorted);
 }
 

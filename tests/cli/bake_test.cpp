@@ -110,6 +110,30 @@ TEST_F(Bake, theVolumeReadsAsIrradianceDoes) {
     EXPECT_EQ(listing("V"), Arguments{"cascade_0.vti"});
 }
 
+TEST_F(Bake, everyCascadeHasTheLightOfAllBounces) {
+    const auto lightOf = [&](const std::string& bounces) {
+        const BakedVolume volume = bake("V.vtm", {"--resolution", "8", "--rays", "1M", "--cascades", "2", "--bounces", bounces});
+        EXPECT_EQ(volume.cascades.size(), 2u);
+        std::vector<double> sums;
+        for (const BakedCascade& cascade : volume.cascades) {
+            for (const std::vector<float>& half : cascade.estimates) {
+                double sum = 0.0;
+                for (const float deposit : half) sum += double(deposit);
+                sums.push_back(sum);
+            }
+        }
+        return sums;
+    };
+    const std::vector<double> one = lightOf("one"), all = lightOf("all");
+    ASSERT_EQ(one.size(), 4u) << "two halves of each";
+    ASSERT_EQ(all.size(), 4u);
+    // Further bounces of the Cornell box bring about as much again as the first one.
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_GT(all[k], 1.3 * one[k]) << k;
+        EXPECT_NEAR(all[k] / all[k % 2 == 0 ? k + 1 : k - 1], 1.0, 0.03) << k;
+    }
+}
+
 TEST_F(Bake, saysWhereTheLightComesFrom) {
     const BakedVolume volume = bake("V.vtm", {"--resolution", "8", "--rays", "16k", "--seed", "5", "--storage", "sh1"});
     EXPECT_EQ(volume.scene, "cornell");
@@ -263,7 +287,6 @@ TEST_F(Bake, badUsageIsOneLineAndLeavesNoFile) {
         {{"--out", file("V.vti")}, ".vtm"},
         {{"--out", file("V.vtm"), "--frames", "2"}, ".pvd"},
         {{"--out", file("V.pvd"), "--frames", "2", "--bounces", "all"}, "--frames"},
-        {{"--out", file("V.vtm"), "--cascades", "2", "--bounces", "all"}, "--cascades"},
         {{"--out", file("V.vtm"), "--camera", "0"}, "--camera"},
         {{"--out", file("V.vtm"), "--cascades", "2", "--camera", "nobody"}, "nobody"},
         {{"--out", file("V.vtm"), "--cascades", "2", "--resolution", "7"}, "resolution"},

@@ -47,7 +47,8 @@ protected:
     json run(const std::string& scene, const Arguments& rows, const Arguments& more) const {
         const CommandResult result = runCommand(call(scene, rows, more));
         EXPECT_EQ(result.status, 0) << result.err;
-        EXPECT_EQ(result.err, "");
+        // Of few rays light is noisy, and that is said.
+        EXPECT_TRUE(result.err.empty() || result.err.starts_with("clv: the light at the points is noisy") || result.err.find("of the points got no light") != std::string::npos) << result.err;
         return json::parse(result.out);
     }
     // Rows of the result in the Cornell box, the header left out.
@@ -272,9 +273,10 @@ TEST_F(Plan, feedbackIsLeftOutOfOneBounce) {
     all.insert(all.end(), {"--bounces", "all"});
     const json one = run("cornell", rows_, options), every = run("cornell", rows_, all);
     EXPECT_EQ(one.at("sweeps"), 1);
-    // Surfaces that send nothing on need no cells either: those of four points are few.
-    EXPECT_LT(one.at("slots"), every.at("slots").get<double>() / 4.0);
-    EXPECT_LT(one.at("bytes"), every.at("bytes").get<double>() / 4.0);
+    EXPECT_GT(every.at("sweeps"), 4);
+    // A level of their own for further bounces, and no more cells than those of the first.
+    EXPECT_EQ(one.at("slots"), every.at("slots"));
+    EXPECT_GT(every.at("bytes"), one.at("bytes"));
 }
 
 TEST_F(Plan, everythingIsLeftOutWithoutLight) {

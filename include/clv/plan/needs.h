@@ -34,7 +34,7 @@ struct Needs {
     bool scrolling = true;   // toroidal addressing of volumes that follow the camera
     int cascades = 1;
     int halves = 2;          // of the rays, for judging resolutions
-    bool feedback = true;    // surfaces send on what the volume says they receive
+    bool feedback = true;    // surfaces send on the light that they receive
     mat3 frame{1.0f};        // in which cells keep directions
     std::vector<Decision> decisions;
 };
