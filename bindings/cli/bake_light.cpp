@@ -59,8 +59,8 @@ PipelineReport bakeLight(const Scene& scene, const LightOptions& options, const 
         };
         std::optional<FurtherBounces> further;
         if (job.needs.feedback) further.emplace(job);
-        first.run([&](std::uint32_t frame, std::size_t rays) {
-            if (further) further->follow(first, rays);
+        first.run([&](std::uint32_t frame, std::size_t rays, double target) {
+            if (further) further->follow(first, rays, target);
             if (options.frames <= 1) return;
             keep(frame);
             onFrame(volume);

@@ -19,7 +19,6 @@ public:
         for (int half = 0; half < volume.parts().halves; ++half) halves.push_back(volume.history(half));
         return halves;
     }
-    void reset() override { volume.reset(); }
 
     Volume volume;
 };
@@ -64,13 +63,14 @@ public:
         clock_.time("inject", [&] { lighting_.inject(volume); });
         clock_.time("merge", [&] { lighting_.merge(volume); });
     }
-    std::vector<ClvRsmTexel> takeLit(int half) override {
+    LitPlaces takeLit(int half) override {
         const std::size_t perHalf = lighting_.currentRays().size() / std::size_t(parts_.halves), first = std::size_t(half) * perHalf;
-        std::vector<ClvRsmTexel> lit;
+        LitPlaces lit;
         addLit(lighting_.currentRays().subspan(first, perHalf), std::span(hits_).subspan(first, perHalf), 1.0f / float(perHalf), lit);
         return lit;
     }
     void add(std::span<const ClvRay> rays, LightLevel& level) override {
+        if (rays.empty()) return;
         Volume& volume = static_cast<CpuLevel&>(level).volume;
         clock_.time("inject", [&] { lighting_.inject(volume, rays); });
         clock_.time("merge", [&] { volume.merge(double(rays.size()), float(parts_.halves) / float(rays.size()), parallelFor_); });

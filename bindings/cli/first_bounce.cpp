@@ -67,11 +67,12 @@ void FirstBounce::run(const AfterRound& afterRound) {
         const std::size_t count = shoot(std::size_t(std::min<std::uint64_t>(round, budget - done)));
         done += count;
         sinceMaps += count;
-        const double now = progress.seconds();
+        double now = progress.seconds();
         // With a budget of time, as many rays are still to come as the pace so far promises.
         const double target = options.seconds > 0.0 ? std::max(double(done), double(done) * options.seconds / std::max(now, 1e-6)) : double(budget);
         levels_.judge(double(shot_), target, options.seconds > 0.0 ? double(done) >= 0.25 * target : done >= judged);
-        if (afterRound) afterRound(pass, count);
+        if (afterRound) afterRound(pass, count, target);
+        now = progress.seconds();
         if (options.seconds > 0.0 && now + (now - before) > options.seconds) break;
         progress.update(options.seconds > 0.0 ? now / options.seconds : double(done) / double(budget));
         if (options.frames <= 1) round = std::min(2 * round, kMostOfAMap);

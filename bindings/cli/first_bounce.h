@@ -10,14 +10,16 @@ class FirstBounce {
 public:
     explicit FirstBounce(LightJob& job) : job_(job), levels_(job, [this](LightLevel& level) { lighting_->shootAgain(level); }) {}
 
-    // Called after each round of rays, of which a number of frames has as many.
-    using AfterRound = std::function<void(std::uint32_t round, std::size_t rays)>;
+    // Called after each round of rays, of which a number of frames has as many. target: rays of all rounds, as far as is known.
+    using AfterRound = std::function<void(std::uint32_t round, std::size_t rays, double target)>;
 
     // Spends the rays that the options give it; says in the job's report what it took.
     void run(const AfterRound& afterRound = {});
 
     // What the surfaces that a half of the last round's rays met send on, where there are further bounces; once a round.
-    std::vector<ClvRsmTexel> takeLit(int half) { return lighting_->takeLit(half); }
+    LitPlaces takeLit(int half) { return lighting_->takeLit(half); }
+    // Rays that showed where light goes, and brought none.
+    std::uint64_t pilots() const { return pilots_; }
     // The levels, mixed, give one bounce.
     std::span<const LitLevel> levels() const { return levels_.levels(); }
 

@@ -17,7 +17,7 @@
 namespace clv {
 namespace {
 
-constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution
+constexpr std::size_t kJudges = 1024;              // receivers that choose the resolution, and points that say how noisy they are
 constexpr std::size_t kFewJudges = 500;            // below this, points that the cameras see judge too
 constexpr double kMuchNoise = 0.3, kManyNoisy = 0.1, kManyDark = 0.1;  // above which they are said
 constexpr float kExact = 2.0f;                     // cells in sight, below which light is said to be inexact
@@ -147,13 +147,23 @@ void LightJob::evaluate(std::span<const LitLevel> levels, std::span<glm::vec3> s
 // Half of the difference between the halves is a sample of the error of their mean.
 void LightJob::judgeNoise(std::span<const LitLevel> first, std::span<const LitLevel> later) {
     if (halves != 2 || points.empty()) return;
-    clock.time("evaluate", [&] {
-        std::vector<glm::vec3> half[2];
-        for (int h = 0; h < 2; ++h) {
-            half[h].resize(points.size(), glm::vec3(0.0f));
-            for (const auto& levels : {first, later}) addIrradiance(levels, &Lookups::points, layout, points, parallelFor, half[h], h);
+    clock.time("noise", [&] {
+        const std::size_t count = std::min(points.size(), kJudges);
+        std::vector<glm::vec3> estimates[2];
+        for (auto& half : estimates) half.resize(count, glm::vec3(0.0f));
+        for (const auto& levels : {first, later}) {
+            for (const LitLevel& level : levels) {
+                if (level.weight == 0.0) continue;
+                const auto histories = level.light->histories();
+                forReceivers(count, parallelFor, [&](std::size_t i) {
+                    const std::size_t point = i * points.size() / count;
+                    const ClvCoefficients read = layout.read(points[point].normal);
+                    for (std::size_t half = 0; half < 2; ++half)
+                        estimates[half][i] += level.lookups->points.irradiance(point, layout, histories[half], read) * float(level.weight);
+                });
+            }
         }
-        report.noise = noiseOf(half[0], half[1]);
+        report.noise = noiseOf(estimates[0], estimates[1]);
     });
     if (report.noise->dark > kManyDark)
         report.warnings.push_back(fmt::format("{:.0f} % of the points got no light: they are dark, or too few rays came by", 100.0 * report.noise->dark));

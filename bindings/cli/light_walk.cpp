@@ -11,70 +11,96 @@
 namespace clv {
 namespace {
 
-constexpr double kFewestRays = 32.0, kFewestShare = 16.0;  // of a bounce, and one in so many where there are no more
-constexpr double kReserved = 128.0;                // one ray in so many spreads what is left, and as many stand for it
-constexpr double kNegligible = 1e-5;               // share of all light at which the rest is extrapolated
+constexpr double kLeastLoss = 5e-4;        // share of a channel's power from bounce to bounce below which its sum has no stable limit
+constexpr double kFewestRays = 32.0;       // of a bounce, where there are as many
+constexpr double kFewestSteps = 16.0;      // that the rays suffice for, else
+constexpr double kForDimPlaces = 0.0625;   // of all rays: what is left for places whose light goes on when that of bright ones is gone
+constexpr double kReserved = 128.0;        // one ray in so many spreads what is left, and as many stand for it
+constexpr double kNegligible = 1e-5;       // share of all light at which the rest is extrapolated
 constexpr double kLeastLater = 0.02, kMostLater = 0.95;  // share of the rays left to later bounces by the first call, which does not know how much light they have
 
 double total(const glm::dvec3& v) { return v.x + v.y + v.z; }
 
-glm::dvec3 fluxOf(std::span<const ClvRsmTexel> emitters) {
-    glm::dvec3 sum(0.0);
-    for (const ClvRsmTexel& texel : emitters) sum += glm::dvec3(texel.flux);
-    return sum;
-}
-
-// By which the power of each channel falls from bounce to bounce, over the later half of them.
-glm::dvec3 paceOf(std::span<const glm::dvec3> power) {
-    glm::dvec3 before(0.0), after(0.0), pace(0.0);
-    for (std::size_t k = (power.size() - 1) / 2; k + 1 < power.size(); ++k) before += power[k], after += power[k + 1];
-    for (int c = 0; c < 3; ++c) pace[c] = before[c] > 0.0 ? after[c] / before[c] : 0.0;
-    return pace;
+// Power of each channel in the later half of the bounces, and what is left of it a bounce later.
+struct Fall {
+    glm::dvec3 before{0.0}, after{0.0};
+};
+Fall fallOf(std::span<const glm::dvec3> power) {
+    Fall fall;
+    for (std::size_t k = (power.size() - 1) / 2; k + 1 < power.size(); ++k) fall.before += power[k], fall.after += power[k + 1];
+    return fall;
 }
 
 }  // namespace
 
-void addLit(std::span<const ClvRay> rays, std::span<const ClvHit> hits, float share, std::vector<ClvRsmTexel>& lit) {
+void addLit(std::span<const ClvRay> rays, std::span<const ClvHit> hits, float share, LitPlaces& lit) {
     for (std::size_t k = 0; k < rays.size(); ++k) {
+        lit.sent += glm::dvec3(rays[k].flux) * double(share);
         const ClvRsmTexel texel = clvRsmTexelFromHit(rays[k], hits[k], share);
-        if (clvTexelWeight(texel) > 0.0f) lit.push_back(texel);
+        if (clvTexelWeight(texel) > 0.0f) lit.texels.push_back(texel);
     }
+}
+
+glm::dvec3 fluxOf(std::span<const ClvRsmTexel> texels) {
+    glm::dvec3 sum(0.0);
+    for (const ClvRsmTexel& texel : texels) sum += glm::dvec3(texel.flux);
+    return sum;
 }
 
 // The light of the places that the last bounce lit, sent on with `count` rays.
 void LightWalk::step(std::size_t count, std::uint32_t seed) {
-    sortAlongSurfaces(lit_, bounds_);
-    lit_.resize((lit_.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
-    lighting_.emit(lit_);
+    sortAlongSurfaces(lit_.texels, bounds_);
+    lit_.texels.resize((lit_.texels.size() + kEmitterWidth - 1) / kEmitterWidth * kEmitterWidth, ClvRsmTexel{});
+    lighting_.emit(lit_.texels);
     const std::size_t first = rays_.size();
     bounceEnds_.push_back(first + count);
     rays_.resize(first + count);
     hits_.resize(count);
     const auto drawn = std::span(rays_).subspan(first);
     lighting_.draw(clvHashCombine(seed, uint(first)), drawn, hits_);
-    lit_.clear();
+    lit_ = {};
     addLit(drawn, hits_, 1.0f / float(count), lit_);
-    power_.push_back(fluxOf(lit_));
+    power_.push_back(fluxOf(lit_.texels));
 }
 
-// Light of channels that do not lose any is given up after some bounces.
-void LightWalk::heedLimit() {
+// By all rays that brought and followed this channel: some of the few of later bounces alone lose nothing by chance.
+bool LightWalk::losesNothing(int c) const {
+    double before = 0.0, after = 0.0;
+    for (std::size_t k = 0; k + 1 < power_.size(); ++k) before += power_[k][c], after += power_[k + 1][c];
+    return before > 0.0 && after > (1.0 - kLeastLoss) * before && kept_[c] > 1.0 - kLeastLoss;
+}
+
+// After the last bounce that is given without a limit, channels that lose nothing end.
+void LightWalk::endLimitless() {
     if (int(bounceEnds_.size()) + 1 != kLastWithoutLimit) return;
-    const glm::dvec3 pace = paceOf(power_);
-    pace_ = glm::max(pace_, pace);
     for (int c = 0; c < 3; ++c) {
-        if (pace[c] < kLargestRatio) continue;
+        if (!losesNothing(c)) continue;
         limitless_ = true;
-        for (ClvRsmTexel& texel : lit_) texel.flux[c] = 0.0f;
+        for (ClvRsmTexel& texel : lit_.texels) texel.flux[c] = 0.0f;
+        power_.back()[c] = 0.0;
     }
-    power_.back() = fluxOf(lit_);
 }
 
-std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::size_t count, std::uint32_t seed) {
-    lit_.assign(lit.begin(), lit.end());
+// What the last bounce lit stands for all later bounces. Of a channel whose few rays lost nothing by chance half of a ray counts as lost.
+void LightWalk::extrapolate() {
+    const Fall fall = fallOf(power_);
+    const int given = int(bounceEnds_.size()) + 1;
+    for (int c = 0; c < 3; ++c) {
+        if (!(power_.back()[c] > 0.0)) continue;
+        const bool endless = losesNothing(c);
+        limitless_ = limitless_ || endless;
+        const double lost = std::max(fall.before[c] - fall.after[c], 0.0) + 0.5 * total(fall.before) / double(rays_.size());
+        const double later = endless ? double(std::max(kLastWithoutLimit - given, 0)) : fall.before[c] / std::max(lost, kLeastLoss * fall.before[c]);
+        for (ClvRsmTexel& texel : lit_.texels) texel.flux[c] *= float(later);
+    }
+}
+
+std::vector<ClvRay> LightWalk::follow(const LitPlaces& lit, std::size_t count, std::uint32_t seed) {
+    lit_ = lit;
     rays_.clear(), bounceEnds_.clear();
-    power_ = {fluxOf(lit_)};
-    const double fewest = std::clamp(double(count) / kFewestShare, 1.0, kFewestRays);
+    power_ = {fluxOf(lit_.texels)};
+    kept_ = power_[0] / glm::max(lit.sent, glm::dvec3(1e-300));
+    const double fewest = std::clamp(double(count) / kFewestSteps, 1.0, kFewestRays);
     const double reserve = std::max(fewest, double(count) / kReserved);  // rays of each of the last two steps
     const double budget = double(count) - 2.0 * reserve;
     const double expected = first_ > 0.0 ? total(power_[0]) * all_ / first_ : 0.0;  // W of all bounces
@@ -82,22 +108,23 @@ std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::siz
     bool little = false;
     while (total(power_.back()) > 0.0) {
         const double now = total(power_.back()), left = budget - double(rays_.size());
-        const glm::dvec3 pace = power_.size() > 1 ? paceOf(power_) : glm::dvec3(0.5);
-        const double later = std::clamp(total(power_.back() * pace) / now, kLeastLater, kMostLater);
-        little = power_.size() > 2 && now < kNegligible * (1.0 - std::min(later, kLargestRatio)) * sum;
-        const double wanted = std::max(expected > 0.0 ? std::min(budget * now / expected, left * (1.0 - later)) : left * (1.0 - later), fewest);
+        const Fall fall = fallOf(power_);
+        const double share = power_.size() > 1 ? total(fall.after) / total(fall.before) : expected > 0.0 ? 1.0 - now / expected : 0.5;
+        const double later = std::clamp(share, kLeastLater, kMostLater);
+        little = power_.size() > 2 && now < kNegligible * (1.0 - std::min(share, 1.0 - kLeastLoss)) * sum;
+        const double byPace = (left - budget * kForDimPlaces) * (1.0 - later);
+        const double wanted = std::max(expected > 0.0 ? std::min(budget * (1.0 - kForDimPlaces) * now / expected, byPace) : byPace, fewest);
         if (wanted > left || little) break;
         sum += now;
         step(std::size_t(wanted), seed);
-        heedLimit();
+        endLimitless();
     }
     // What is left falls in a geometric series, from many places: few would be bright spots.
     if (total(power_.back()) > 0.0) {
         sum += total(power_.back());
         step(std::size_t(little ? fewest : reserve), seed);
-        const glm::dvec3 pace = glm::min(paceOf(power_), kLargestRatio);
-        for (ClvRsmTexel& texel : lit_) texel.flux /= vec3(1.0 - pace);
-        if (const double rest = total(fluxOf(lit_)); rest > 0.0) {
+        extrapolate();
+        if (const double rest = total(fluxOf(lit_.texels)); rest > 0.0) {
             sum += rest;
             step(std::size_t(little ? fewest : std::max(double(count) - double(rays_.size()), fewest)), seed);
             power_.pop_back();
@@ -110,7 +137,8 @@ std::vector<ClvRay> LightWalk::follow(std::span<const ClvRsmTexel> lit, std::siz
     }
     first_ += double(count) * total(power_[0]), all_ += double(count) * sum;
     bounces_ = std::max(bounces_, int(bounceEnds_.size()) + 1);
-    pace_ = glm::max(pace_, paceOf(power_));
+    const Fall fall = fallOf(power_);
+    for (int c = 0; c < 3; ++c) pace_[c] = fall.before[c] > 0.0 ? fall.after[c] / fall.before[c] : 0.0;
     return std::move(rays_);
 }
 

@@ -24,8 +24,12 @@ public:
     virtual std::size_t bytes() const = 0;
     // Mean deposits of each half, one record a slot: W m for the whole flux of the lights. Valid until more rays come.
     virtual std::vector<std::span<const float>> histories() = 0;
-    // Forgets all light.
-    virtual void reset() = 0;
+};
+
+// What surfaces send on that some rays met: a texel each.
+struct LitPlaces {
+    std::vector<ClvRsmTexel> texels;
+    glm::dvec3 sent{0.0};  // W a channel, of the rays
 };
 
 // Rays from one source: the maps of the lights, or surfaces that send light. All back ends draw the same ones for the same seed.
@@ -51,11 +55,11 @@ public:
     virtual std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) = 0;
     // The rays of the last shot for one more level, which has joined since.
     virtual void shootAgain(LightLevel& level) = 0;
-    // What the surfaces that a half of the last shot met send on, a texel each, for settings that keep hits; once a shot.
-    virtual std::vector<ClvRsmTexel> takeLit(int half) = 0;
+    // Of a half of the last shot, for settings that keep hits; once a shot.
+    virtual LitPlaces takeLit(int half) = 0;
 
     // For settings with emitters, in place of shots: adds the light of rays that are cut, which is their mean; each half has as many, one
-    // half after the other.
+    // half after the other. Nothing where there are none.
     virtual void add(std::span<const ClvRay> rays, LightLevel& level) = 0;
 };
 

@@ -7,7 +7,7 @@
 namespace clv {
 
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
-                   const ParallelFor& parallelFor, std::span<glm::vec3> sum, std::optional<int> half) {
+                   const ParallelFor& parallelFor, std::span<glm::vec3> sum) {
     struct Part {
         const LookupTable& table;
         std::span<const float> history;
@@ -18,8 +18,8 @@ void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which
     for (const LitLevel& level : levels) {
         if (level.weight == 0.0) continue;
         const auto halves = level.light->histories();
-        std::span<const float> history = halves[half ? std::size_t(*half) : 0];
-        if (halves.size() == 2 && !half) {
+        std::span<const float> history = halves[0];
+        if (halves.size() == 2) {
             averageHalves(halves[0], halves[1], parallelFor, means.emplace_back());
             history = means.back();
         }

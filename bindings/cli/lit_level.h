@@ -1,7 +1,6 @@
 // Levels with light, and how receivers read a mix of them.
 #pragma once
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +31,8 @@ void forReceivers(std::size_t count, const ParallelFor& parallelFor, Body&& body
     });
 }
 
-// The mix of the levels: E at the receivers of that table, W/m^2, is added to `sum`. half: of the rays alone; else all of them.
+// The mix of the levels: E at the receivers of that table, W/m^2, is added to `sum`.
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
-                   const ParallelFor& parallelFor, std::span<glm::vec3> sum, std::optional<int> half = {});
+                   const ParallelFor& parallelFor, std::span<glm::vec3> sum);
 
 }  // namespace clv

@@ -56,8 +56,8 @@ PipelineReport lightPoints(const Scene& scene, const LightOptions& options, std:
             FirstBounce first(job);
             std::optional<FurtherBounces> further;
             if (job.needs.feedback) further.emplace(job);
-            first.run([&](std::uint32_t, std::size_t rays) {
-                if (further) further->follow(first, rays);
+            first.run([&](std::uint32_t, std::size_t rays, double target) {
+                if (further) further->follow(first, rays, target);
             });
             const std::span<const LitLevel> later = further ? further->finish(first) : std::span<const LitLevel>();
             job.evaluate(first.levels(), out);

@@ -47,7 +47,6 @@ public:
     const Level& level() const override { return level_; }
     double rays() const override { return rays_; }
     std::size_t bytes() const override { return level_.bytes() + frame_.bytes(); }
-    void reset() override { rays_ = 0.0, downloaded_ = false; }
 
     std::vector<std::span<const float>> histories() override {
         const std::size_t floats = level_.slots.size() * frameStride(settings_);
@@ -175,7 +174,7 @@ public:
 
     std::size_t shoot(std::size_t count, std::span<LightLevel* const> levels) override {
         shot_ = {nextIndex_, raysPerHalf(count)};
-        for (auto& lit : lit_) lit.clear();
+        lit_ = {};
         forPieces([&](const ClvFrame& constants) {
             for (LightLevel* level : levels) addTo(*level, constants);
             if (settings_.keepHits) noteLit(constants.rayCount);
@@ -188,7 +187,7 @@ public:
     void shootAgain(LightLevel& level) override {
         forPieces([&](const ClvFrame& constants) { addTo(level, constants); });
     }
-    std::vector<ClvRsmTexel> takeLit(int half) override { return std::exchange(lit_[half], {}); }
+    LitPlaces takeLit(int half) override { return std::exchange(lit_[std::size_t(half)], {}); }
 
     void add(std::span<const ClvRay> rays, LightLevel& level) override {
         VulkanLevel& target = static_cast<VulkanLevel&>(level);
@@ -276,7 +275,7 @@ private:
     std::optional<VulkanFrame> run_;
     uint nextIndex_ = 0;
     Shot shot_;
-    std::array<std::vector<ClvRsmTexel>, 2> lit_;  // by the halves of the last shot
+    std::array<LitPlaces, 2> lit_;  // by the halves of the last shot
     std::vector<ClvRay> rays_;
     std::vector<ClvHit> hits_;
 };
