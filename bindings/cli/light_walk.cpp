@@ -73,9 +73,10 @@ bool LightWalk::losesNothing(int c) const {
 // After the last bounce that is given without a limit, channels that lose nothing end.
 void LightWalk::endLimitless() {
     if (int(bounceEnds_.size()) + 1 != kLastWithoutLimit) return;
+    const Fall fall = fallOf(power_);
     for (int c = 0; c < 3; ++c) {
         if (!losesNothing(c)) continue;
-        limitless_ = true;
+        limitless_ = true, endlessPace_[c] = fall.after[c] / fall.before[c];
         for (ClvRsmTexel& texel : lit_.texels) texel.flux[c] = 0.0f;
         power_.back()[c] = 0.0;
     }
@@ -88,7 +89,7 @@ void LightWalk::extrapolate() {
     for (int c = 0; c < 3; ++c) {
         if (!(power_.back()[c] > 0.0)) continue;
         const bool endless = losesNothing(c);
-        limitless_ = limitless_ || endless;
+        if (endless) limitless_ = true, endlessPace_[c] = fall.after[c] / fall.before[c];
         const double lost = std::max(fall.before[c] - fall.after[c], 0.0) + 0.5 * total(fall.before) / double(rays_.size());
         const double later = endless ? double(std::max(kLastWithoutLimit - given, 0)) : fall.before[c] / std::max(lost, kLeastLoss * fall.before[c]);
         for (ClvRsmTexel& texel : lit_.texels) texel.flux[c] *= float(later);
@@ -138,7 +139,7 @@ std::vector<ClvRay> LightWalk::follow(const LitPlaces& lit, std::size_t count, s
     first_ += double(count) * total(power_[0]), all_ += double(count) * sum;
     bounces_ = std::max(bounces_, int(bounceEnds_.size()) + 1);
     const Fall fall = fallOf(power_);
-    for (int c = 0; c < 3; ++c) pace_[c] = fall.before[c] > 0.0 ? fall.after[c] / fall.before[c] : 0.0;
+    for (int c = 0; c < 3; ++c) pace_[c] = endlessPace_[c] > 0.0 ? endlessPace_[c] : fall.before[c] > 0.0 ? fall.after[c] / fall.before[c] : 0.0;
     return std::move(rays_);
 }
 

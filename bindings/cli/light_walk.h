@@ -51,7 +51,7 @@ private:
     std::vector<glm::dvec3> power_;        // W a channel that surfaces send on after each bounce
     glm::dvec3 kept_{0.0};
     double first_ = 0.0, all_ = 0.0;       // W of the first bounces so far, and of all that followed, times rays
-    glm::dvec3 pace_{0.0};
+    glm::dvec3 pace_{0.0}, endlessPace_{0.0};  // the latter of channels that lose nothing
     int bounces_ = 1;
     bool limitless_ = false;
 };

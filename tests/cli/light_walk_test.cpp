@@ -125,6 +125,7 @@ TEST(LightWalk, givesUpAChannelThatLosesNothing) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {  // later calls know how much light there is
             const glm::dvec3 sum = carried(walk.follow(litRooms({&flux, 1}, glm::dvec3(albedo)), count, seed))[0];
             EXPECT_TRUE(walk.limitless());
+            EXPECT_NEAR(walk.pace().x, 1.0, 1e-5) << count;
             EXPECT_NEAR(sum.x, double(kLastWithoutLimit - 1), 0.05) << count;
             if (count < 4096) continue;
             EXPECT_NEAR(sum.y, 2.0, 0.01);
