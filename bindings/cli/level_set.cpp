@@ -7,7 +7,7 @@ namespace clv {
 void LevelSet::begin(Lighting& lighting, double rays, std::span<const LitLevel> like) {
     lighting_ = &lighting, like_ = like;
     const int resolution = job_.options.resolution;
-    if (!job_.grids.empty() && !like.empty()) {
+    if (!job_.automatic && !like.empty()) {
         for (const LitLevel& one : like) levels_.push_back(job_.makeLit(lighting, one.resolution, one.light->level(), one.lookups));
         return;
     }
@@ -52,14 +52,9 @@ bool LevelSet::addFiner() {
 }
 
 void LevelSet::estimate(int which, HalfEstimates& estimates) const {
-    const LitLevel& level = levels_[std::size_t(which)];
     job_.clock.time("choose", [&] {
-        const auto halves = level.light->histories();
-        for (auto& half : estimates.half) half.resize(job_.judges.size());
-        forReceivers(job_.judges.size(), job_.parallelFor, [&](std::size_t i) {
-            const ClvCoefficients read = job_.layout.read(job_.judges[i].normal);
-            for (std::size_t half = 0; half < 2; ++half) estimates.half[half][i] = level.lookups->judges.irradiance(i, job_.layout, halves[half], read);
-        });
+        for (auto& half : estimates.half) half.assign(job_.judges.size(), glm::vec3(0.0f));
+        addHalves(levels_[std::size_t(which)], &Lookups::judges, job_.layout, job_.judges, 1.0f, job_.parallelFor, estimates);
     });
 }
 

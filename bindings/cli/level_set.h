@@ -21,9 +21,6 @@ public:
 
     // Where the resolution is chosen: see LevelChoice::judge().
     void judge(double done, double target, bool settled, std::span<const LitLevel> like = {});
-    // Whether no further level joins.
-    bool settled() const { return !job_.automatic || choice_.settled(); }
-
     // Coarse to fine, or those of the job's grids; mixed by their weights.
     std::span<const LitLevel> levels() const { return levels_; }
     std::size_t bytes() const;

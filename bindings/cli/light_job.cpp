@@ -72,14 +72,14 @@ void LightJob::heedScene() {
         }
     }
     looks_ = lookAround(*embree_, points, parallelFor);
-    sight = nearSight(looks_);
+    sight_ = nearSight(looks_);
     const PointHeed pointHeed = heedPoints(*embree_, points, looks_, heed.sheets, parallelFor);
     report.warnings.insert(report.warnings.end(), pointHeed.warnings.begin(), pointHeed.warnings.end());
     embree_->setSolids(!pointHeed.sheets);
     if (grids.empty() && cellsInSight(finestResolution()) < kExact)
         report.warnings.push_back(fmt::format("a tenth of the points see surfaces from {:.2g} m or nearer, where the smallest cells are {:.2g} m wide: their light is inexact, or "
                                               "missing; a larger --resolution or less of a scene has smaller cells",
-                                              sight, volumeOver(scene, finestResolution(), options).cellSize));
+                                              sight_, volumeOver(scene, finestResolution(), options).cellSize));
 }
 
 // Some of the points, and with few of them some that the cameras see.
@@ -125,7 +125,7 @@ LitLevel LightJob::makeLit(Lighting& lighting, int resolution, Level level, std:
     return lit;
 }
 
-float LightJob::cellsInSight(int resolution) const { return sight / volumeOver(scene, resolution, options).cellSize; }
+float LightJob::cellsInSight(int resolution) const { return sight_ / volumeOver(scene, resolution, options).cellSize; }
 
 int LightJob::finestResolution() const { return automatic ? kResolutions[std::size(kResolutions) - 1] : options.resolution; }
 
@@ -148,22 +148,12 @@ void LightJob::evaluate(std::span<const LitLevel> levels, std::span<glm::vec3> s
 void LightJob::judgeNoise(std::span<const LitLevel> first, std::span<const LitLevel> later) {
     if (halves != 2 || points.empty()) return;
     clock.time("noise", [&] {
-        const std::size_t count = std::min(points.size(), kJudges);
-        std::vector<glm::vec3> estimates[2];
-        for (auto& half : estimates) half.resize(count, glm::vec3(0.0f));
+        HalfEstimates estimates;
+        for (auto& half : estimates.half) half.resize(std::min(points.size(), kJudges), glm::vec3(0.0f));
         for (const auto& levels : {first, later}) {
-            for (const LitLevel& level : levels) {
-                if (level.weight == 0.0) continue;
-                const auto histories = level.light->histories();
-                forReceivers(count, parallelFor, [&](std::size_t i) {
-                    const std::size_t point = i * points.size() / count;
-                    const ClvCoefficients read = layout.read(points[point].normal);
-                    for (std::size_t half = 0; half < 2; ++half)
-                        estimates[half][i] += level.lookups->points.irradiance(point, layout, histories[half], read) * float(level.weight);
-                });
-            }
+            for (const LitLevel& level : levels) addHalves(level, &Lookups::points, layout, points, float(level.weight), parallelFor, estimates);
         }
-        report.noise = noiseOf(estimates[0], estimates[1]);
+        report.noise = noiseOf(estimates.half[0], estimates.half[1]);
     });
     if (report.noise->dark > kManyDark)
         report.warnings.push_back(fmt::format("{:.0f} % of the points got no light: they are dark, or too few rays came by", 100.0 * report.noise->dark));

@@ -25,8 +25,6 @@ struct LightJob {
     Level makeLevel(int resolution);
     // With slots wherever there is open space.
     Level makeLevel(const ClvVolume& grid);
-    // Cells from points to what they see: in nearSight(). Of fewer than two the light is inexact; where there is less than one, places are lost.
-    float cellsInSight(int resolution) const;
     std::shared_ptr<const Lookups> makeLookups(const Level& level);
     LitLevel makeLit(Lighting& lighting, int resolution, Level level, std::shared_ptr<const Lookups> lookups);
     // stream: each lighting has one of its own, from which the seed of its rays follows.
@@ -49,16 +47,18 @@ struct LightJob {
     const int halves;      // of the rays
     const DepositLayout layout;
     std::vector<ClvReceiver> points, judges;
-    float sight = kClvFar;  // m, from which points see surfaces: nearSight()
     StageClock clock;
     PipelineReport report;
 
 private:
     int finestResolution() const;
+    // Cells from points to what they see: in nearSight(). Of fewer than two the light is inexact; where there is less than one, places are lost.
+    float cellsInSight(int resolution) const;
     void heedScene();
     void chooseJudges();
 
     std::vector<Look> looks_;  // of the points
+    float sight_ = kClvFar;    // m, from which they see surfaces: nearSight()
     std::optional<EmbreeScene> embree_, proxy_;
     std::optional<Scene> proxyScene_, turned_;
     std::unique_ptr<LightBackend> backend_;

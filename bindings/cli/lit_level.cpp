@@ -31,4 +31,17 @@ void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which
     });
 }
 
+void addHalves(const LitLevel& level, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers, float scale,
+               const ParallelFor& parallelFor, HalfEstimates& sums) {
+    if (scale == 0.0f) return;
+    const auto histories = level.light->histories();
+    const std::size_t count = sums.half[0].size();
+    forReceivers(count, parallelFor, [&](std::size_t i) {
+        const std::size_t receiver = i * receivers.size() / count;
+        const ClvCoefficients read = layout.read(receivers[receiver].normal);
+        for (std::size_t half = 0; half < 2; ++half)
+            sums.half[half][i] += (level.lookups.get()->*which).irradiance(receiver, layout, histories[half], read) * scale;
+    });
+}
+
 }  // namespace clv

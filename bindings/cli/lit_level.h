@@ -7,6 +7,7 @@
 #include "bindings/cli/lighting.h"
 #include "clv/cpu/lookup_table.h"
 #include "clv/cpu/parallel.h"
+#include "clv/cpu/resolution.h"
 
 namespace clv {
 
@@ -34,5 +35,9 @@ void forReceivers(std::size_t count, const ParallelFor& parallelFor, Body&& body
 // The mix of the levels: E at the receivers of that table, W/m^2, is added to `sum`.
 void addIrradiance(std::span<const LitLevel> levels, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers,
                    const ParallelFor& parallelFor, std::span<glm::vec3> sum);
+
+// What each half of the rays says in one level, times `scale`, is added to both sums: at as many of the receivers, evenly chosen, as these have.
+void addHalves(const LitLevel& level, LookupTable Lookups::*which, const DepositLayout& layout, std::span<const ClvReceiver> receivers, float scale,
+               const ParallelFor& parallelFor, HalfEstimates& sums);
 
 }  // namespace clv
